@@ -11,6 +11,7 @@
 #include "editor/panels/status_bar.h"
 #include "editor/session/window_places.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 #include "ui/widgets.h"
 
 namespace acentric::editor {
@@ -39,6 +40,23 @@ std::size_t overBudget(const Session& session) {
   const auto inspection = session.inspection();
   const int most = session.project().budget.trianglesPerRegion;
   return inspection && most > 0 ? inspection->budgets.over(std::size_t(most)).size() : 0;
+}
+
+/// Letters from the Japanese ranges on, U+3000: in UTF-8 they begin with E3 to ED, or EF.
+bool isJapanese(const std::string& text) {
+  return std::ranges::any_of(text, [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte >= 0xe3 && byte <= 0xed) || byte == 0xef;
+  });
+}
+
+bool hasJapaneseNames(const Session& session) {
+  if (!session.hasProject()) return false;
+  const Project& project = session.project();
+  const auto named = [](const auto& each) { return isJapanese(each.name); };
+  return isJapanese(session.file().string()) || isJapanese(project.scene.string()) ||
+         std::ranges::any_of(project.storeys, named) || std::ranges::any_of(project.bookmarks, named) ||
+         std::ranges::any_of(project.paths, named);
 }
 
 ui::Tone toneOf(MessageLevel level) {
@@ -76,8 +94,7 @@ tl::expected<std::unique_ptr<App>, std::string> App::create(const AppOptions& op
       std::fflush(file.get());
     });
   }
-  for (const std::string& missing : app->window_->missingFonts())
-    app->session_.messages().add(MessageLevel::warning, missing);
+  app->followPreferences();
   const Preferences& preferences = app->session_.preferences();
   app->window_->show(loadWindowPlaces(windowPlacesFile()), options.size);
   // Work that was not saved comes before what is opened by itself: the welcome offers it.
@@ -148,11 +165,13 @@ void App::takeDropped(PanelContext& context) {
   const auto dropped = window_->takeDropped();
   if (dropped.empty()) return;
   if (dropped.size() > 1)
-    session_.messages().add(MessageLevel::warning, "Several files were dropped; the first is opened.");
+    session_.messages().add(MessageLevel::warning, tr("Several files were dropped; the first is opened."));
   proceedAfterAsking(context.actions, {Continuation::Kind::open, dropped.front()});
 }
 
 void App::tellNews() {
+  for (const std::string& missing : window_->missingFonts())
+    if (fontsTold_.insert(missing).second) session_.messages().add(MessageLevel::warning, missing);
   for (const Message& message : session_.messages().takeNew()) {
     log_.event(message.level == MessageLevel::error ? "failure" : "message", message.text);
     if (message.modal)
@@ -229,13 +248,25 @@ void App::giveKeys() {
   if (escape && popup && !dialogs_.anyOpen() && !byKeys) ui::closeTopPopup();
 }
 
+void App::speak() {
+  const std::string& chosen = session_.preferences().language;
+  const std::string wanted = chosen.empty() ? systemLanguage() : chosen;
+  if (wanted == tongue_) return;
+  tongue_ = wanted;
+  if (const auto spoken = setLanguage(wanted); !spoken)
+    session_.messages().add(MessageLevel::warning, spoken.error());
+  log_.event("language", language());
+  window_->pacer().request();
+}
+
 void App::followPreferences() {
   const Preferences& preferences = session_.preferences();
-  const bool light = preferences.theme == Theme::light;
-  const float scale = float(preferences.scalePercent) / 100;
-  if (light == lookAsked_.light && scale == lookAsked_.scale) return;
-  lookAsked_ = {light, scale};
-  window_->setLook(light, scale);
+  speak();
+  const ui::Look look{preferences.theme == Theme::light, float(preferences.scalePercent) / 100,
+                      language() == "ja" || hasJapaneseNames(session_), language()};
+  if (look == lookAsked_) return;
+  lookAsked_ = look;
+  window_->setLook(look);
 }
 
 void App::startGuide() {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 
@@ -56,6 +57,8 @@ class App {
   void drawStatus(PanelContext& context, float top);
   void giveKeys();
   void followPreferences();
+  /// Texts in the language of the preferences; tells if it is not there.
+  void speak();
   void startGuide();
   void runShortcuts(PanelContext& context);
   void takeDropped(PanelContext& context);
@@ -87,7 +90,9 @@ class App {
   std::string loggedSweep_, loggedGoals_;
   std::string loggedState_;
   int loggedFinished_ = 0;
-  ui::Look lookAsked_{false, 0};
+  ui::Look lookAsked_;
+  std::set<std::string> fontsTold_;  ///< that they are missing
+  std::string tongue_;               ///< the language that was asked for last
 };
 
 }  // namespace acentric::editor

@@ -11,6 +11,7 @@
 #include "ui/keys.h"
 #include "ui/text_format.h"
 #include "ui/theme.h"
+#include "ui/translate.h"
 #include "ui/widgets.h"
 
 namespace acentric::ui {
@@ -55,7 +56,7 @@ void FileBrowser::choose(const fs::path& path, bool confirmed) {
     if (!request_.endings.empty() && !endsWithAny(target.filename().string(), request_.endings))
       target += request_.endings.front();
     if (!confirmed && fs::exists(target, error)) {
-      question_ = fmt::format("{} exists. Replace it?", target.filename().string());
+      question_ = trf("{} exists. Replace it?", target.filename().string());
       pending_ = target;
       return;
     }
@@ -63,7 +64,7 @@ void FileBrowser::choose(const fs::path& path, bool confirmed) {
     return chosen_(target);
   }
   if (!fs::exists(path, error)) {
-    listing_.problem = fmt::format("{}: no such file", path.string());
+    listing_.problem = trf("{}: no such file", path.string());
     return;
   }
   open_ = false;
@@ -128,8 +129,8 @@ void FileBrowser::drawPlaces() {
     if (button(label)) enter(path);
     ImGui::SameLine();
   };
-  place("↑ Up", folder_.parent_path());
-  if (const char* home = std::getenv("HOME")) place("Home", home);
+  place(tr("↑ Up"), folder_.parent_path());
+  if (const char* home = std::getenv("HOME")) place(tr("Home"), home);
   place("/", "/");
   ImGui::AlignTextToFramePadding();
   mutedText(shortenPath(folder_.string(), 78));
@@ -143,7 +144,7 @@ void FileBrowser::drawEntries(UiLog& log) {
   ImGui::PopStyleVar();
   const std::vector<std::size_t> shown = shownEntries();
   if (!listing_.problem.empty()) wrappedText(palette::danger, listing_.problem);
-  if (shown.empty() && listing_.problem.empty()) mutedText("Nothing to open in this folder.");
+  if (shown.empty() && listing_.problem.empty()) mutedText(tr("Nothing to open in this folder."));
   fs::path opened;
   for (int row = 0; row < int(shown.size()); ++row) {
     const DirectoryEntry& entry = listing_.entries[shown[std::size_t(row)]];
@@ -171,7 +172,7 @@ void FileBrowser::drawEntries(UiLog& log) {
 
 void FileBrowser::drawFooter(UiLog& log) {
   ImGui::AlignTextToFramePadding();
-  mutedText(request_.saving ? "Name" : "Find");
+  mutedText(request_.saving ? tr("Name") : tr("Find"));
   ImGui::SameLine();
   if (focusName_) {
     ImGui::SetKeyboardFocusHere();
@@ -185,7 +186,7 @@ void FileBrowser::drawFooter(UiLog& log) {
   log.item("file.name");
   ImGui::AlignTextToFramePadding();
   if (question_.empty()) {
-    std::string filter = "All files";
+    std::string filter = tr("All files");
     if (!request_.endings.empty()) filter = fmt::format("{}", fmt::join(request_.endings, " "));
     mutedText(filter);
   } else {
@@ -193,10 +194,10 @@ void FileBrowser::drawFooter(UiLog& log) {
   }
   const float width = scaled(96);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - 2 * width - ImGui::GetStyle().ItemSpacing.x);
-  if (button("Cancel", {width, 0})) open_ = false;
+  if (button(tr("Cancel"), {width, 0})) open_ = false;
   log.item("file.cancel");
   ImGui::SameLine();
-  const char* verb = !question_.empty() ? "Replace" : request_.saving ? "Save" : "Open";
+  const char* verb = !question_.empty() ? tr("Replace") : request_.saving ? tr("Save") : tr("Open");
   if (primaryButton(verb, {width, 0}, selected_ >= 0 || !name_.empty())) accept();
   log.item("file.accept");
 }

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "ui/translate.h"
+
 namespace acentric::ui {
 
 std::string formatCount(std::uint64_t count) {
@@ -27,7 +29,7 @@ std::string formatBytes(std::uint64_t bytes) {
 }
 
 std::string formatDuration(double seconds) {
-  if (!std::isfinite(seconds) || seconds < 0) return "unknown";
+  if (!std::isfinite(seconds) || seconds < 0) return tr("unknown");
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
   const auto whole = static_cast<long long>(std::llround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);

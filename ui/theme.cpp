@@ -1,16 +1,19 @@
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "ui/colour.h"
 #include "ui/icons.h"
+#include "ui/translate.h"
 
 namespace acentric::ui {
 namespace {
 
 // Latin, dashes and ellipsis, arrows, mathematical signs, geometric shapes, check marks.
+constexpr float kJapaneseSize = 1;  ///< beside the main font, whose letters fill less of their height
 constexpr std::array<ImWchar, 13> kGlyphs = {0x0020, 0x00ff, 0x2010, 0x2027, 0x2190, 0x21ff, 0x2212,
                                              0x2265, 0x25a0, 0x25ff, 0x2713, 0x2718, 0};
 
@@ -22,14 +25,51 @@ constexpr std::array<ImWchar, 2 * std::size(kIcons) + 1> iconRanges() {
 }
 constexpr auto kIconGlyphs = iconRanges();
 
-ImFont* loadFont(const char* file, float size, const ImWchar* glyphs = kGlyphs.data()) {
+bool isThere(const char* file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return nullptr;
+  return std::filesystem::is_regular_file(file, error);
+}
+
+ImFont* loadFont(const char* file, float size, const ImWchar* glyphs = kGlyphs.data()) {
+  if (!isThere(file)) return nullptr;
   ImFontConfig config;
   config.OversampleH = 2;
   config.OversampleV = 1;
   config.PixelSnapH = true;
   return ImGui::GetIO().Fonts->AddFontFromFileTTF(file, size, &config, glyphs);
+}
+
+/// Japanese letters that the program's own texts need, and those that names are written with.
+struct JapaneseGlyphs {
+  ImVector<ImWchar> texts, names;
+};
+
+JapaneseGlyphs japaneseGlyphs(bool names) {
+  JapaneseGlyphs glyphs;
+  ImFontGlyphRangesBuilder builder;
+  for (const Language& each : languages()) builder.AddText(each.name);
+  builder.AddText(catalogueTexts().c_str());
+  // What the main font has stays the main font's.
+  for (std::size_t i = 0; kGlyphs[i] != 0; i += 2)
+    for (unsigned c = kGlyphs[i]; c <= kGlyphs[i + 1]; ++c)
+      builder.UsedChars[int(c >> 5U)] &= ~(1U << (c & 31U));
+  builder.BuildRanges(&glyphs.texts);
+  if (!names) return glyphs;
+  ImFontGlyphRangesBuilder more = builder;
+  for (const ImWchar* range = ImGui::GetIO().Fonts->GetGlyphRangesJapanese(); *range != 0; range += 2)
+    for (unsigned c = std::max<unsigned>(range[0], 0x3000); c <= range[1]; ++c) more.AddChar(ImWchar(c));
+  more.BuildRanges(&glyphs.names);
+  return glyphs;
+}
+
+/// Adds to the font that was loaded last what it has no glyph for.
+void addJapanese(const char* file, float size, const ImVector<ImWchar>& glyphs) {
+  if (glyphs.empty() || glyphs[0] == 0 || !isThere(file)) return;
+  ImFontConfig config;
+  config.MergeMode = true;
+  config.OversampleH = 1;
+  config.PixelSnapH = true;
+  ImGui::GetIO().Fonts->AddFontFromFileTTF(file, size, &config, glyphs.Data);
 }
 
 void setSizes(ImGuiStyle& style) {
@@ -124,22 +164,33 @@ Fonts applyTheme(const Look& look, std::vector<std::string>& missingFonts, const
   io.Fonts->Clear();
   missingFonts.clear();
   const auto missing = [&](const char* file, const char* package) {
-    missingFonts.push_back(std::string("The font ") + file + " is missing; install " + package);
+    missingFonts.push_back(trf("The font {} is missing; install {}", file, package));
   };
   Fonts fonts;
-  fonts.regular = loadFont(files.regular, std::round(14.0F * look.scale));
-  fonts.bold = loadFont(files.bold, std::round(14.0F * look.scale));
-  fonts.small = loadFont(files.regular, 11.5F * look.scale);
-  fonts.title = loadFont(files.regular, std::round(24.0F * look.scale));
+  static JapaneseGlyphs japanese;  // as long as the atlas, which refers to its ranges
+  japanese = japaneseGlyphs(look.japanese);
+  const auto load = [&](const char* file, float size, bool withNames) {
+    ImFont* const font = loadFont(file, size);
+    if (font != nullptr)
+      addJapanese(files.japanese, size * kJapaneseSize,
+                  withNames && look.japanese ? japanese.names : japanese.texts);
+    return font;
+  };
+  fonts.regular = load(files.regular, std::round(14.0F * look.scale), true);
+  fonts.bold = load(files.bold, std::round(14.0F * look.scale), true);
+  fonts.small = load(files.regular, 11.5F * look.scale, true);
+  fonts.title = load(files.regular, std::round(24.0F * look.scale), false);
   fonts.icons = loadFont(files.icons, std::round(17.0F * look.scale), kIconGlyphs.data());
   if (fonts.regular == nullptr) {
-    missing(files.regular, "fonts-dejavu-core for a better look.");
+    missing(files.regular, tr("fonts-dejavu-core for a better look."));
     ImFontConfig config;
     config.SizePixels = std::round(13.0F * look.scale);
     fonts.regular = io.Fonts->AddFontDefault(&config);
   }
+  if (look.japanese && !isThere(files.japanese))
+    missing(files.japanese, tr("fonts-vlgothic for Japanese letters."));
   io.FontDefault = fonts.regular;  // else the first in the atlas, which the icons may be
-  if (fonts.icons == nullptr) missing(files.icons, "fonts-fork-awesome for icons in place of words.");
+  if (fonts.icons == nullptr) missing(files.icons, tr("fonts-fork-awesome for icons in place of words."));
   if (fonts.bold == nullptr) fonts.bold = fonts.regular;
   if (fonts.small == nullptr) fonts.small = fonts.regular;
   if (fonts.title == nullptr) fonts.title = fonts.regular;

@@ -22,12 +22,17 @@ struct FontFiles {
   const char* regular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
   const char* bold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
   const char* icons = "/usr/share/fonts/truetype/fork-awesome/forkawesome-webfont.ttf";
+  const char* japanese = "/usr/share/fonts/truetype/vlgothic/VL-Gothic-Regular.ttf";
 };
 
 /// What the user chose of the look, or the display asks for.
 struct Look {
   bool light = false;
   float scale = 1;  ///< of texts, paddings, marks and reach; 1 = 96 dpi
+  /// The letters of the language's own name and of its catalogue are always there; Japanese ones, which cost
+  /// some thousand glyphs, where texts or names may need them.
+  bool japanese = false;
+  std::string language = "en";  ///< of ui/translate.h: which letters its catalogue has
   bool operator==(const Look&) const = default;
 };
 

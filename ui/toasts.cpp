@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ui/theme.h"
+#include "ui/translate.h"
 #include "ui/widgets.h"
 
 namespace acentric::ui {
@@ -76,13 +77,13 @@ bool Toasts::draw(const ImVec2& lowerRight, UiLog& log) {
       ImGui::TextUnformatted(toast.text.c_str());
       ImGui::PopTextWrapPos();
       const bool grave = toast.tone == Tone::warning || toast.tone == Tone::danger;
-      if (grave && ImGui::SmallButton("Details")) {
+      if (grave && ImGui::SmallButton(tr("Details"))) {
         details = true;
         clicked = i;
       }
       if (grave) {
         log.item("toast.details");
-        tooltip("Shows the message among all others, where it can be copied.");
+        tooltip(tr("Shows the message among all others, where it can be copied."));
       }
       if (ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered() &&
           ImGui::IsMouseClicked(ImGuiMouseButton_Left))

@@ -121,8 +121,9 @@ tl::expected<std::unique_ptr<Window>, std::string> Window::open(const WindowOpti
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // the layout is the program's own affair
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-  window->look_ = {options.light, options.scale > 0 ? options.scale : window->displayScale()};
-  window->wantedLook_ = {options.light, options.scale};
+  window->wantedLook_ = options.look;
+  window->look_ = options.look;
+  if (window->look_.scale <= 0) window->look_.scale = window->displayScale();
   window->fonts_ = applyTheme(window->look_, window->missingFonts_);
   // Chains to our callbacks, which therefore must be installed already.
   if (!ImGui_ImplGlfw_InitForOpenGL(window->window_, true) || !ImGui_ImplOpenGL3_Init("#version 330 core"))
@@ -254,13 +255,14 @@ float Window::displayScale() const {
   return std::isfinite(content) ? std::clamp(content, kLeast, kMost) : 1;
 }
 
-void Window::setLook(bool light, float scale) {
-  wantedLook_ = {light, scale};
+void Window::setLook(const Look& look) {
+  wantedLook_ = look;
   pacer_.request();
 }
 
 void Window::applyLook() {
-  const Look look{wantedLook_.light, wantedLook_.scale > 0 ? wantedLook_.scale : displayScale()};
+  Look look = wantedLook_;
+  if (look.scale <= 0) look.scale = displayScale();
   if (look == look_) return;
   look_ = look;
   fonts_ = applyTheme(look_, missingFonts_);

@@ -34,8 +34,7 @@ struct FrameTime {
 
 struct WindowOptions {
   std::string title;
-  bool light = false;  ///< theme
-  float scale = 0;     ///< of the interface; 0 = the display's
+  Look look = {.scale = 0};  ///< scale 0: the display's
 };
 
 class Window {
@@ -69,7 +68,7 @@ class Window {
   InputQueue& input() { return input_; }
   const Fonts& fonts() const { return fonts_; }
   /// Applied before the next frame. `scale` 0: that of the display the window is on.
-  void setLook(bool light, float scale);
+  void setLook(const Look& look);
   const Look& look() const { return look_; }
   /// Do the arrow keys, Space and Enter go to widgets (ImGui's keyboard navigation)?
   void navigateByKeys(bool on);

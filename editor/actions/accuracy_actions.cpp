@@ -1,14 +1,13 @@
-#include <fmt/format.h>
-
 #include "editor/actions/accuracy_actions.h"
 
 #include "editor/actions/menu_actions.h"
 #include "engine/pipeline/knobs.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
 
-const char* kNeeds = "a saved project that is not being measured";
+constexpr const char* kNeeds = trLater("a saved project that is not being measured");
 
 bool canMeasure(const ActionContext& c) {
   return withBuilt(c) && !c.session.untitled() && !c.session.dirty() && !c.session.sweeping().running() &&
@@ -28,12 +27,12 @@ void begin(ActionContext& c, SweepWatch& watch, SweepRequest request, bool again
 
 void measure(ActionContext& c, bool again) {
   show(c, false);
-  begin(c, c.session.sweeping(), c.state.accuracy.request, again, "Measure accuracy against time");
+  begin(c, c.session.sweeping(), c.state.accuracy.request, again, tr("Measure accuracy against time"));
 }
 
 void search(ActionContext& c) {
   show(c, true);
-  begin(c, c.session.proposing(), c.state.accuracy.goalsRequest, false, "Look for what keeps the goals");
+  begin(c, c.session.proposing(), c.state.accuracy.goalsRequest, false, tr("Look for what keeps the goals"));
 }
 
 /// Of the sweep that there is; nothing where it has none.
@@ -52,7 +51,7 @@ void applySetting(ActionContext& c, const SweepSetting& setting, const std::stri
   const auto project = acentric::applySetting(c.session.project(), setting);
   if (!project) return c.session.messages().addFailure(label, project.error());
   if (*project == c.session.project())
-    return c.session.messages().add(MessageLevel::info, label + ": the project is so already");
+    return c.session.messages().add(MessageLevel::info, trf("{}: the project is so already", label));
   c.session.apply({*project, label});
 }
 
@@ -60,11 +59,12 @@ void addAccuracyActions(std::vector<Action>& table) {
   table.push_back(
       {"sweep.start",
        "Walk",
-       "Measure accuracy against time",
+       trLater("Measure accuracy against time"),
        {},
        {},
-       "Tries settings one by one, then together, on the same frames against ray-traced truth; goes on "
-       "where it ended",
+       trLater(
+           "Tries settings one by one, then together, on the same frames against ray-traced truth; goes on "
+           "where it ended"),
        true,
        canMeasure,
        [](ActionContext& c) { measure(c, false); },
@@ -72,10 +72,10 @@ void addAccuracyActions(std::vector<Action>& table) {
        kNeeds});
   table.push_back({"sweep.again",
                    "Walk",
-                   "Measure it anew",
+                   trLater("Measure it anew"),
                    {},
                    {},
-                   "Forgets what was measured before: for a project that has changed",
+                   trLater("Forgets what was measured before: for a project that has changed"),
                    false,
                    canMeasure,
                    [](ActionContext& c) { measure(c, true); },
@@ -83,89 +83,91 @@ void addAccuracyActions(std::vector<Action>& table) {
                    kNeeds});
   table.push_back({"sweep.stop",
                    "Walk",
-                   "Stop measuring accuracy",
+                   trLater("Stop measuring accuracy"),
                    {},
                    {},
-                   "What is measured is kept",
+                   trLater("What is measured is kept"),
                    false,
                    [](const ActionContext& c) {
                      return c.session.sweeping().running() && !c.session.sweeping().stopping();
                    },
                    [](ActionContext& c) { c.session.sweeping().stop(); },
                    {},
-                   "a measurement that runs"});
-  const auto preset = [&table](const char* name, const char* help) {
+                   trLater("a measurement that runs")});
+  const auto preset = [&table](const char* name, const char* label, const char* help) {
     table.push_back(
         {std::string("preset.") + name,
          "Walk",
-         fmt::format("Use the {} preset", name),
+         label,
          {},
          {},
          help,
          false,
          [name](const ActionContext& c) { return presetNow(c, c.session.sweeping(), name).has_value(); },
-         [name](ActionContext& c) {
-           applySetting(c, *presetNow(c, c.session.sweeping(), name), fmt::format("Use the {} preset", name));
+         [name, label](ActionContext& c) {
+           applySetting(c, *presetNow(c, c.session.sweeping(), name), tr(label));
          },
          {},
-         "a measurement of accuracy against time"});
+         trLater("a measurement of accuracy against time")});
   };
-  preset("fast", "Of what is worth having, the quickest frames with at most three times the least error");
-  preset("balanced",
-         "Of what is worth having, nearest to least error, quickest frame and fewest bytes at once");
-  preset("accurate", "Of what is worth having, the least error");
-  table.push_back({"goals.show",
-                   "Walk",
-                   "Keep to goals",
-                   {},
-                   {},
-                   "Bytes, milliseconds, decibels: looks for the layout and settings that keep to them",
-                   true,
-                   withProject,
-                   [](ActionContext& c) { show(c, true); },
-                   {}});
+  preset("fast", trLater("Use the fast preset"),
+         trLater("Of what is worth having, the quickest frames with at most three times the least error"));
+  preset("balanced", trLater("Use the balanced preset"),
+         trLater("Of what is worth having, nearest to least error, quickest frame and fewest bytes at once"));
+  preset("accurate", trLater("Use the accurate preset"), trLater("Of what is worth having, the least error"));
+  table.push_back(
+      {"goals.show",
+       "Walk",
+       trLater("Keep to goals"),
+       {},
+       {},
+       trLater("Bytes, milliseconds, decibels: looks for the layout and settings that keep to them"),
+       true,
+       withProject,
+       [](ActionContext& c) { show(c, true); },
+       {}});
   table.push_back(
       {"goals.start",
        "Walk",
-       "Look for what keeps the goals",
+       trLater("Look for what keeps the goals"),
        {},
        {},
-       "Bakes and measures what a few frames need, with one setting after another; goes on where it "
-       "ended",
+       trLater("Bakes and measures what a few frames need, with one setting after another; goes on where it "
+               "ended"),
        false,
        [](const ActionContext& c) {
          return canMeasure(c) && c.state.accuracy.goalsRequest.goals.check().has_value();
        },
        [](ActionContext& c) { search(c); },
        {},
-       "a goal, and a saved project that is not being measured"});
+       trLater("a goal, and a saved project that is not being measured")});
   table.push_back({"goals.stop",
                    "Walk",
-                   "Stop looking for what keeps the goals",
+                   trLater("Stop looking for what keeps the goals"),
                    {},
                    {},
-                   "What is measured is kept",
+                   trLater("What is measured is kept"),
                    false,
                    [](const ActionContext& c) {
                      return c.session.proposing().running() && !c.session.proposing().stopping();
                    },
                    [](ActionContext& c) { c.session.proposing().stop(); },
                    {},
-                   "a search that runs"});
+                   trLater("a search that runs")});
   table.push_back(
       {"goals.take",
        "Walk",
-       "Take what keeps the goals best",
+       trLater("Take what keeps the goals best"),
        {},
        {},
-       "Sets the project so; undo takes it back",
+       trLater("Sets the project so; undo takes it back"),
        false,
        [](const ActionContext& c) { return presetNow(c, c.session.proposing(), "proposal").has_value(); },
        [](ActionContext& c) {
-         applySetting(c, *presetNow(c, c.session.proposing(), "proposal"), "Keep to goals");
+         applySetting(c, *presetNow(c, c.session.proposing(), "proposal"), tr("Keep to goals"));
        },
        {},
-       "a search for what keeps goals"});
+       trLater("a search for what keeps goals")});
 }
 
 }  // namespace acentric::editor

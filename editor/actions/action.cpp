@@ -1,21 +1,25 @@
 #include "editor/actions/action.h"
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
 void saved(ActionContext& context, const Status& status, const Continuation& then) {
   if (status) return proceed(context, then);
-  context.session.messages().addFailure("Saving", status.error());
+  context.session.messages().addFailure(tr("Saving"), status.error());
 }
 
 }  // namespace
 
+std::string menuOf(const Action& action) { return action.menu.empty() ? trLater("Window") : action.menu; }
+
 std::string whyDisabled(const Action& action, const ActionContext& context) {
   if (action.enabled(context)) return {};
-  if (!context.session.hasProject()) return "needs an open project";
-  if (action.needsProject && context.session.shippedWalk()) return kIsWalk;
-  if (!context.session.built()) return "the project is still being opened";
-  return action.needs.empty() ? "not now" : "needs " + action.needs;
+  if (!context.session.hasProject()) return tr("needs an open project");
+  if (action.needsProject && context.session.shippedWalk()) return tr(kIsWalk);
+  if (!context.session.built()) return tr("the project is still being opened");
+  return action.needs.empty() ? tr("not now") : trf("needs {}", tr(action.needs));
 }
 
 GuideFacts guideFacts(const ActionContext& context) {
@@ -108,7 +112,7 @@ void overwriteThen(ActionContext& context, const Continuation& then) {
 
 void reload(ActionContext& context) {
   if (const Status read = context.session.reload(); !read)
-    context.session.messages().addFailure("Reloading", read.error());
+    context.session.messages().addFailure(tr("Reloading"), read.error());
 }
 
 void saveAsThen(ActionContext& context, const std::filesystem::path& file, const Continuation& then) {

@@ -17,7 +17,7 @@ struct ActionContext {
 
 struct Action {
   std::string id;    ///< "edit.undo": stable, for tests and the log
-  std::string menu;  ///< "Edit"; empty = in no menu
+  std::string menu;  ///< "Edit"; empty = in no menu. As all texts here in English: tr() where it is shown
   std::string label;
   Shortcut shortcut;
   Shortcut alternative;  ///< a second key
@@ -30,6 +30,8 @@ struct Action {
   bool needsProject = false;                          ///< a walk in its place does not do
 };
 
+/// The menu it is in, in English; of one that is in none "Window".
+std::string menuOf(const Action& action);
 /// Why it cannot be done now, in a few words; empty if it can.
 std::string whyDisabled(const Action& action, const ActionContext& context);
 /// What the guided start watches.

@@ -5,14 +5,22 @@
 #include <span>
 #include <tuple>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
 char folded(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
 
+/// Capitals are small, umlauts and other letters of Latin-1 too: in UTF-8 they are C3 and 80 to 9E.
 std::string folded(std::string_view text) {
   std::string result(text);
-  std::ranges::transform(result, result.begin(), [](char c) { return folded(c); });
+  bool latin = false;
+  for (char& c : result) {
+    const auto byte = static_cast<unsigned char>(c);
+    c = latin && byte >= 0x80 && byte <= 0x9e && byte != 0x97 ? char(byte + 0x20) : folded(c);
+    latin = byte == 0xc3;
+  }
   return result;
 }
 
@@ -27,8 +35,9 @@ std::vector<std::string> wordsOf(std::string_view query) {
     if (c == ' ')
       words.emplace_back();
     else
-      words.back() += folded(c);
+      words.back() += c;
   std::erase(words, "");
+  for (std::string& word : words) word = folded(word);
   return words;
 }
 
@@ -83,19 +92,28 @@ std::optional<Rank> rankOf(std::span<const std::string> words, std::span<const F
 std::optional<Rank> rankOf(std::span<const std::string> words, const Action& action) {
   const std::string key = describe(action.shortcut), alternative = describe(action.alternative);
   constexpr int kHelpPenalty = 4;
-  const std::array<Field, 5> fields = {{{action.label},
+  const std::string label = tr(action.label), menu = tr(action.menu), help = tr(action.help);
+  const std::array<Field, 8> fields = {{{label},
+                                        {action.label},
+                                        {menu, 1, MatchKind::wordBegin},
                                         {action.menu, 1, MatchKind::wordBegin},
                                         {key, 1, MatchKind::wordBegin},
                                         {alternative, 1, MatchKind::wordBegin},
+                                        {help, kHelpPenalty, MatchKind::inside},
                                         {action.help, kHelpPenalty, MatchKind::inside}}};
   return rankOf(words, fields);
 }
 
 /// How much of the label the whole query is: 0 all of it, 1 its beginning, 2 neither.
-int labelRank(std::string_view query, const Action& action) {
-  const std::string label = folded(action.label);
+int labelRank(std::string_view query, const std::string& name) {
+  const std::string label = folded(name);
   if (!label.starts_with(query)) return 2;
   return label.size() == query.size() ? 0 : 1;
+}
+
+/// Of its name in the language that is shown, or in English.
+int labelRank(std::string_view query, const Action& action) {
+  return std::min(labelRank(query, tr(action.label)), labelRank(query, action.label));
 }
 
 }  // namespace
@@ -140,31 +158,42 @@ std::vector<const Action*> searchActions(const std::vector<Action>& table, std::
 
 std::vector<KeyHelp> searchKeys(const std::vector<Action>& table, std::string_view query) {
   std::vector<KeyHelp> all = {
-      {"W A S D, arrows", "walk; with Shift three times as fast", "Walk"},
-      {"Q E, or drag in the walk", "look around", "Walk"},
-      {"Page Up, Page Down", "raise and lower the eye within the baked range", "Walk"},
-      {"Wheel", "zoom the plan", "Plan"},
-      {"Right or middle drag", "pan the plan", "Plan"},
-      {"Shift+click or drag", "add cells to the selection; with Ctrl: add or take off", "Plan"},
-      {"Ctrl+arrows", "move the selection by one step of the lattice", "Plan"},
-      {"Enter, Esc", "close the outline in hand; give up what is in hand, or the selection", "Plan"},
-      {"Drag, right drag, wheel", "orbit, pan, come nearer to what is under the pointer", "3D view"},
-      {"Alt+click", "tell which cameras sample the surface, and how finely", "3D view"},
-      {"Double click", "centre on the surface, or look through the camera", "3D view"},
-      {"Drag a number", "change it; double click to type a value", "Settings"},
-      {"Tab, arrows, Space", "go from widget to widget, change the one that is lit; Esc ends", "Window"},
-      {"Alt", "open the menus, as F10", "Window"}};
+      {trLater("W A S D, arrows"), trLater("walk; with Shift three times as fast"), trLater("Walk")},
+      {trLater("Q E, or drag in the walk"), trLater("look around"), trLater("Walk")},
+      {trLater("Page Up, Page Down"), trLater("raise and lower the eye within the baked range"),
+       trLater("Walk")},
+      {trLater("Wheel"), trLater("zoom the plan"), trLater("Plan")},
+      {trLater("Right or middle drag"), trLater("pan the plan"), trLater("Plan")},
+      {trLater("Shift+click or drag"), trLater("add cells to the selection; with Ctrl: add or take off"),
+       trLater("Plan")},
+      {trLater("Ctrl+arrows"), trLater("move the selection by one step of the lattice"), trLater("Plan")},
+      {trLater("Enter, Esc"), trLater("close the outline in hand; give up what is in hand, or the selection"),
+       trLater("Plan")},
+      {trLater("Drag, right drag, wheel"), trLater("orbit, pan, come nearer to what is under the pointer"),
+       trLater("3D view")},
+      {trLater("Alt+click"), trLater("tell which cameras sample the surface, and how finely"),
+       trLater("3D view")},
+      {trLater("Double click"), trLater("centre on the surface, or look through the camera"),
+       trLater("3D view")},
+      {trLater("Drag a number"), trLater("change it; double click to type a value"), trLater("Settings")},
+      {trLater("Tab, arrows, Space"),
+       trLater("go from widget to widget, change the one that is lit; Esc ends"), trLater("Window")},
+      {trLater("Alt"), trLater("open the menus, as F10"), trLater("Window")}};
   for (const Action& action : table)
     for (const Shortcut& key : {action.shortcut, action.alternative})
-      if (key.key != 0)
-        all.push_back({describe(key), action.label, action.menu.empty() ? "Window" : action.menu});
+      if (key.key != 0) all.push_back({describe(key), action.label, menuOf(action)});
   const std::vector<std::string> words = wordsOf(query);
   std::erase_if(all, [&words](const KeyHelp& line) {
-    const std::array<Field, 3> fields = {{{line.keys, 0, MatchKind::inside},
+    const std::string keys = tr(line.keys), what = tr(line.what), where = tr(line.where);
+    const std::array<Field, 6> fields = {{{keys, 0, MatchKind::inside},
+                                          {line.keys, 0, MatchKind::inside},
+                                          {what, 0, MatchKind::inside},
                                           {line.what, 0, MatchKind::inside},
+                                          {where, 0, MatchKind::wordBegin},
                                           {line.where, 0, MatchKind::wordBegin}}};
     return !rankOf(words, fields);
   });
+  for (KeyHelp& line : all) line = {tr(line.keys), tr(line.what), tr(line.where)};
   return all;
 }
 

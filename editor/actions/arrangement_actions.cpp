@@ -1,4 +1,5 @@
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -17,23 +18,29 @@ void showOrEnlarge(ActionContext& c, View view) {
 }
 
 void addViews(std::vector<Action>& table) {
-  const auto add = [&table](const char* id, const char* label, int code, const std::string& help, View view) {
+  const auto add = [&table](const char* id, const char* label, int code, const char* help, View view) {
     table.push_back({id,
                      "View",
                      label,
                      {code, 0},
                      {},
-                     help + ". Again: it fills the window; once more: back.",
+                     help,
                      false,
                      withProject,
                      [view](ActionContext& c) { showOrEnlarge(c, view); },
                      [view](const ActionContext& c) { return shows(c, view); }});
   };
-  add("view.plan", "Plan", key::f2, "The layout from above", View::plan);
-  add("view.scene3d", "3D", key::f4, "The scene from any side, with the layout in it", View::scene3d);
-  add("view.accuracy", "Accuracy", key::f6,
-      "How near settings come to the truth, and what they cost in time and bytes", View::accuracy);
-  add("view.walk", "Walk", key::f7, "The walk", View::walk);
+  add("view.plan", trLater("Plan"), key::f2,
+      trLater("The layout from above. Again: it fills the window; once more: back."), View::plan);
+  add("view.scene3d", trLater("3D"), key::f4,
+      trLater("The scene from any side, with the layout in it. Again: it fills the window; once more: back."),
+      View::scene3d);
+  add("view.accuracy", trLater("Accuracy"), key::f6,
+      trLater("How near settings come to the truth, and what they cost in time and bytes. Again: it fills "
+              "the window; once more: back."),
+      View::accuracy);
+  add("view.walk", trLater("Walk"), key::f7,
+      trLater("The walk. Again: it fills the window; once more: back."), View::walk);
 }
 
 void addPane(std::vector<Action>& table, const char* id, const char* label, const char* help,
@@ -77,10 +84,10 @@ void addArrangementActions(std::vector<Action>& table) {
   addViews(table);
   table.push_back({"view.four",
                    "View",
-                   "Four views",
+                   trLater("Four views"),
                    {key::f8, 0},
                    {},
-                   "Plan, walk, 3D and accuracy at once; again: back to panels",
+                   trLater("Plan, walk, 3D and accuracy at once; again: back to panels"),
                    true,
                    withProject,
                    [](ActionContext& c) {
@@ -92,16 +99,17 @@ void addArrangementActions(std::vector<Action>& table) {
                    [](const ActionContext& c) { return arrangementOf(c) == Arrangement::four; }});
   table.push_back({"window.fullScreen",
                    "View",
-                   "Full-screen walk",
+                   trLater("Full-screen walk"),
                    {key::f11, 0},
                    {},
-                   "The walk alone on the whole screen; F11 or Esc leaves",
+                   trLater("The walk alone on the whole screen; F11 or Esc leaves"),
                    false,
                    withProject,
                    [](ActionContext& c) { c.state.fullScreen = !c.state.fullScreen; },
                    [](const ActionContext& c) { return c.state.fullScreen; }});
-  addPane(table, "window.settings", "Settings pane", "At the left of the window", &Preferences::showSettings);
-  addPane(table, "window.bottom", "Bake and messages pane", "At the bottom of the window",
+  addPane(table, "window.settings", trLater("Settings pane"), trLater("At the left of the window"),
+          &Preferences::showSettings);
+  addPane(table, "window.bottom", trLater("Bake and messages pane"), trLater("At the bottom of the window"),
           &Preferences::showBottom);
 }
 

@@ -2,6 +2,7 @@
 
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/density_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -28,20 +29,20 @@ void tell(ActionContext& c, const std::set<CellId>& cells) {
     least = std::min(least, density), most = std::max(most, density);
   }
   const std::string times =
-      least == most ? densityText(most) : fmt::format("{} to {}", densityText(least), densityText(most));
-  c.session.messages().add(
-      MessageLevel::info,
-      fmt::format(
-          "{}: {} times the samples per degree ({:.3g} /°). Bake to see it",
-          cells.size() == 1 ? std::string("One cell") : fmt::format("{} cells", cells.size()), times,
-          std::clamp(most * project.bake.samplesPerDegree, kLeastSamplesPerDegree, kMostSamplesPerDegree)));
+      least == most ? densityText(most) : fmt::format("{}–{}", densityText(least), densityText(most));
+  const double perDegree =
+      std::clamp(most * project.bake.samplesPerDegree, kLeastSamplesPerDegree, kMostSamplesPerDegree);
+  c.session.messages().add(MessageLevel::info,
+                           trfMany("{} cell: {} times the samples per degree ({:.3g} /°). Bake to see it",
+                                   "{} cells: {} times the samples per degree ({:.3g} /°). Bake to see it",
+                                   cells.size(), cells.size(), times, perDegree));
 }
 
 }  // namespace
 
 void addDensityActions(std::vector<Action>& table) {
-  const auto density = [&table](const char* id, const char* label, const Shortcut& shortcut,
-                                const char* help, bool first, auto meant, auto edit) {
+  const auto density = [&table](const char* id, const char* label, const Shortcut& shortcut, const char* help,
+                                bool first, auto meant, auto edit) {
     table.push_back({id,
                      "Edit",
                      label,
@@ -55,26 +56,28 @@ void addDensityActions(std::vector<Action>& table) {
                        if (c.session.apply(edit(c.session.project(), cells))) tell(c, cells);
                      },
                      {},
-                     "a selected cell, or that the walk's eye stands in one"});
+                     trLater("a selected cell, or that the walk's eye stands in one")});
   };
   const auto step = [](int steps) {
     return [steps](const Project& p, const std::set<CellId>& cells) { return stepDensity(p, cells, steps); };
   };
-  density("density.more", "More samples in selected cells", {key::rightBracket, 0},
-          "1.41 times the samples per degree, twice the bytes. Where no cell is selected, in the one that the "
-          "walk's eye stands in",
-          true, cellsMeant, step(1));
-  density("density.fewer", "Fewer samples in selected cells", {key::leftBracket, 0},
-          "Half the bytes. Where no cell is selected, in the one that the walk's eye stands in", false,
-          cellsMeant, step(-1));
-  density("density.usual", "The project's samples in selected cells", {}, "", false, cellsMeant,
+  density(
+      "density.more", trLater("More samples in selected cells"), {key::rightBracket, 0},
+      trLater(
+          "1.41 times the samples per degree, twice the bytes. Where no cell is selected, in the one that "
+          "the walk's eye stands in"),
+      true, cellsMeant, step(1));
+  density("density.fewer", trLater("Fewer samples in selected cells"), {key::leftBracket, 0},
+          trLater("Half the bytes. Where no cell is selected, in the one that the walk's eye stands in"),
+          false, cellsMeant, step(-1));
+  density("density.usual", trLater("The project's samples in selected cells"), {}, "", false, cellsMeant,
           [](const Project& p, const std::set<CellId>& cells) { return setDensity(p, cells, 1); });
-  density("density.moreHere", "More resolution here", {key::rightBracket, ui::modifier::shift},
-          "Twice the samples, and bytes, for the cell that the walk's eye stands in", false, cellOfEye,
-          step(1));
-  density("density.fewerHere", "Fewer bytes here", {key::leftBracket, ui::modifier::shift},
-          "Half the samples, and bytes, for the cell that the walk's eye stands in", false, cellOfEye,
-          step(-1));
+  density("density.moreHere", trLater("More resolution here"), {key::rightBracket, ui::modifier::shift},
+          trLater("Twice the samples, and bytes, for the cell that the walk's eye stands in"), false,
+          cellOfEye, step(1));
+  density("density.fewerHere", trLater("Fewer bytes here"), {key::leftBracket, ui::modifier::shift},
+          trLater("Half the samples, and bytes, for the cell that the walk's eye stands in"), false,
+          cellOfEye, step(-1));
 }
 
 }  // namespace acentric::editor

@@ -4,6 +4,7 @@
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/walk_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -63,15 +64,15 @@ void addCellActions(std::vector<Action>& table) {
                          c.state.selection.clear();
                      },
                      {},
-                     "a selected cell for which it makes sense"});
+                     trLater("a selected cell for which it makes sense")});
   };
-  onSelection("edit.split", "Split selected cells", {key::x, 0},
-              "Into four of half the size, where more is to be seen or triangles are too many "
-              "(configurations e and g)",
+  onSelection("edit.split", trLater("Split selected cells"), {key::x, 0},
+              trLater("Into four of half the size, where more is to be seen or triangles are too many "
+                      "(configurations e and g)"),
               canSplitCell, splitCells);
   onSelection(
-      "edit.join", "Join what was split", {key::x, ui::modifier::shift},
-      "The parts around the selected ones become one cell again",
+      "edit.join", trLater("Join what was split"), {key::x, ui::modifier::shift},
+      trLater("The parts around the selected ones become one cell again"),
       [](const LayoutSpec& spec, const CellId& cell) {
         return canSplit(spec.configuration) && cell.level > 0;
       },
@@ -84,7 +85,7 @@ void addEditActions(std::vector<Action>& table) {
   table.push_back(
       {"edit.undo",
        "Edit",
-       "Undo",
+       trLater("Undo"),
        {key::z, kCtrl},
        {},
        "",
@@ -92,11 +93,11 @@ void addEditActions(std::vector<Action>& table) {
        [](const ActionContext& c) { return c.session.hasProject() && c.session.history().canUndo(); },
        [](ActionContext& c) { c.session.undo(); },
        {},
-       "something to undo"});
+       trLater("something to undo")});
   table.push_back(
       {"edit.redo",
        "Edit",
-       "Redo",
+       trLater("Redo"),
        {key::y, kCtrl},
        {key::z, kCtrlShift},
        "",
@@ -104,11 +105,11 @@ void addEditActions(std::vector<Action>& table) {
        [](const ActionContext& c) { return c.session.hasProject() && c.session.history().canRedo(); },
        [](ActionContext& c) { c.session.redo(); },
        {},
-       "something that was undone"});
+       trLater("something that was undone")});
   addSelectionActions(table);
   table.push_back({"edit.remove",
                    "Edit",
-                   "Remove selected cells or key pose",
+                   trLater("Remove selected cells or key pose"),
                    {key::del, 0},
                    {key::backspace, 0},
                    "",
@@ -124,7 +125,7 @@ void addEditActions(std::vector<Action>& table) {
                      c.state.selection.clear();
                    },
                    {},
-                   "a selected cell or key pose"});
+                   trLater("a selected cell or key pose")});
   addCellActions(table);
   addDensityActions(table);
 }

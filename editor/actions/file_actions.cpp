@@ -1,4 +1,5 @@
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -8,17 +9,17 @@ namespace {
 void addOutsideActions(std::vector<Action>& table) {
   table.push_back({"file.reimport",
                    "File",
-                   "Import the model again",
+                   trLater("Import the model again"),
                    {key::f5, 0},
                    {},
-                   "Reads the model and its textures from disk as they are now",
+                   trLater("Reads the model and its textures from disk as they are now"),
                    true,
                    [](const ActionContext& c) { return withBuilt(c) && !c.session.rebuilding().running(); },
                    [](ActionContext& c) { c.session.reimport(); },
                    {}});
   table.push_back({"file.reimportAutomatically",
                    "File",
-                   "Import by itself when it changes",
+                   trLater("Import by itself when it changes"),
                    {},
                    {},
                    "",
@@ -32,10 +33,10 @@ void addOutsideActions(std::vector<Action>& table) {
                    [](const ActionContext& c) { return c.session.preferences().reimportAutomatically; }});
   table.push_back({"file.locate",
                    "File",
-                   "Locate the model…",
+                   trLater("Locate the model…"),
                    {},
                    {},
-                   "Where the model lies now, or another one to take its place",
+                   trLater("Where the model lies now, or another one to take its place"),
                    false,
                    withProject,
                    [](ActionContext& c) { c.state.dialog = Dialog::locateScene; },
@@ -43,15 +44,15 @@ void addOutsideActions(std::vector<Action>& table) {
   table.push_back(
       {"file.reload",
        "File",
-       "Reload from disk",
+       trLater("Reload from disk"),
        {},
        {},
-       "The project as another program has saved it; undo brings back what was here",
+       trLater("The project as another program has saved it; undo brings back what was here"),
        false,
        [](const ActionContext& c) { return c.session.hasProject() && c.session.projectFileChanged(); },
        [](ActionContext& c) { reload(c); },
        {},
-       "a project that another program has changed"});
+       trLater("a project that another program has changed")});
 }
 
 }  // namespace
@@ -59,10 +60,10 @@ void addOutsideActions(std::vector<Action>& table) {
 void addFileActions(std::vector<Action>& table) {
   table.push_back({"file.new",
                    "File",
-                   "New project…",
+                   trLater("New project…"),
                    {key::n, kCtrl},
                    {},
-                   "Choose a model; cells are laid over its floor",
+                   trLater("Choose a model; cells are laid over its floor"),
                    false,
                    always,
                    [](ActionContext& c) {
@@ -71,10 +72,10 @@ void addFileActions(std::vector<Action>& table) {
                    {}});
   table.push_back({"file.open",
                    "File",
-                   "Open…",
+                   trLater("Open…"),
                    {key::o, kCtrl},
                    {},
-                   "A project, a walk, or a model for a new project",
+                   trLater("A project, a walk, or a model for a new project"),
                    false,
                    always,
                    [](ActionContext& c) {
@@ -83,21 +84,21 @@ void addFileActions(std::vector<Action>& table) {
                    {}});
   table.push_back({"file.save",
                    "File",
-                   "Save",
+                   trLater("Save"),
                    {key::s, kCtrl},
                    {},
-                   "Save the project",
+                   trLater("Save the project"),
                    true,
                    [](const ActionContext& c) { return c.session.dirty(); },
                    [](ActionContext& c) { saveThen(c, {}); },
                    {},
-                   "unsaved changes"});
+                   trLater("unsaved changes")});
   table.push_back({"file.saveAs",
                    "File",
-                   "Save as…",
+                   trLater("Save as…"),
                    {key::s, kCtrlShift},
                    {},
-                   "Save under another name; captures go along",
+                   trLater("Save under another name; captures go along"),
                    false,
                    withProject,
                    [](ActionContext& c) {
@@ -109,7 +110,7 @@ void addFileActions(std::vector<Action>& table) {
   addOutsideActions(table);
   table.push_back({"file.close",
                    "File",
-                   "Close",
+                   trLater("Close"),
                    {key::w, kCtrl},
                    {},
                    "",
@@ -122,7 +123,7 @@ void addFileActions(std::vector<Action>& table) {
   addPreferenceActions(table);
   table.push_back({"file.quit",
                    "File",
-                   "Quit",
+                   trLater("Quit"),
                    {key::q, kCtrl},
                    {},
                    "",

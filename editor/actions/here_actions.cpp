@@ -2,6 +2,7 @@
 
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/layout_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -22,9 +23,13 @@ void addCellAt(ActionContext& c, const glm::dvec2& place) {
     c.state.selection = {cell};
     const bool split = canSplitCell(project.layout(), cell);
     return tell(
-        c, fmt::format("Cell ({}, {}) covers this place already, and is selected now. {}", cell.i, cell.j,
-                       split ? "It can be split (X), or a single APV be added here."
-                             : "A single APV can be added here too."));
+        c,
+        split ? trf("Cell ({}, {}) covers this place already, and is selected now. It can be split (X), or a "
+                    "single APV be added here.",
+                    cell.i, cell.j)
+              : trf("Cell ({}, {}) covers this place already, and is selected now. A single APV can be added "
+                    "here too.",
+                    cell.i, cell.j));
   }
   if (c.session.apply(addCell(project, cell))) c.state.selection = {cell};
 }
@@ -37,11 +42,11 @@ void addApvAt(ActionContext& c, const glm::dvec2& place) {
   for (const auto& [number, apv] : spec.freeApvs)
     if (glm::distance(apv.centre, place) <= taken) {
       c.state.selection = {{number, 0, kFreeSlot}};
-      return tell(c, fmt::format("Panorama {} stands here already, and is selected now.", number));
+      return tell(c, trf("Panorama {} stands here already, and is selected now.", number));
     }
   if (spec.freeApvs.size() >= std::size_t(kMaxFreeApvs))
-    return tell(c, fmt::format("There are {} single APVs, the most that a storey takes. Remove one first.",
-                               kMaxFreeApvs));
+    return tell(
+        c, trf("There are {} single APVs, the most that a storey takes. Remove one first.", kMaxFreeApvs));
   const int number = nextFreeNumber(spec);
   if (c.session.apply(addFreeApv(project, Apv{place, {spec.cellSize, 0}})))
     c.state.selection = {{number, 0, kFreeSlot}};
@@ -50,7 +55,7 @@ void addApvAt(ActionContext& c, const glm::dvec2& place) {
 void selectCellHere(ActionContext& c) {
   const Layout& layout = *c.session.built()->layout;
   const auto region = layout.regionAt(eyePlace(c));
-  if (!region) return tell(c, "No cell covers the place where the eye is. Add one there (Insert).");
+  if (!region) return tell(c, tr("No cell covers the place where the eye is. Add one there (Insert)."));
   c.state.selection = {layout.regions[std::size_t(*region)].id};
 }
 
@@ -59,23 +64,34 @@ void selectCellHere(ActionContext& c) {
 void addHereActions(std::vector<Action>& table) {
   const auto here = [&table](const char* id, const char* label, const Shortcut& shortcut, const char* help,
                              bool first, void (*run)(ActionContext&)) {
-    table.push_back({id, "Walk", label, shortcut, {}, help, first, withBuilt, run, {}, "a layout"});
+    table.push_back({id, "Walk", label, shortcut, {}, help, first, withBuilt, run, {}, trLater("a layout")});
   };
-  here("walk.addCell", "Add a cell here", {key::insert, 0}, "The place of the lattice that the eye stands in",
-       true, [](ActionContext& c) { addCellAt(c, eyePlace(c)); });
-  here("walk.addApv", "Add a single APV here", {key::insert, ui::modifier::shift},
-       "Beside the lattice, its middle at the eye", false,
+  here("walk.addCell", trLater("Add a cell here"), {key::insert, 0},
+       trLater("The place of the lattice that the eye stands in"), true,
+       [](ActionContext& c) { addCellAt(c, eyePlace(c)); });
+  here("walk.addApv", trLater("Add a single APV here"), {key::insert, ui::modifier::shift},
+       trLater("Beside the lattice, its middle at the eye"), false,
        [](ActionContext& c) { addApvAt(c, eyePlace(c)); });
-  here("walk.selectCell", "Select the cell I stand in", {key::a, kCtrlShift}, "", false, selectCellHere);
+  here("walk.selectCell", trLater("Select the cell I stand in"), {key::a, kCtrlShift}, "", false,
+       selectCellHere);
   const auto there = [&table](const char* id, const char* label, const char* help,
                               void (*run)(ActionContext&)) {
-    table.push_back(
-        {id, "", label, {}, {}, help, false, pointed, run, {}, "a right click on the floor of the walk"});
+    table.push_back({id,
+                     "",
+                     label,
+                     {},
+                     {},
+                     help,
+                     false,
+                     pointed,
+                     run,
+                     {},
+                     trLater("a right click on the floor of the walk")});
   };
-  there("walk.addCellThere", "Add a cell where I pointed",
-        "The place of the lattice that the floor under the pointer belongs to",
+  there("walk.addCellThere", trLater("Add a cell where I pointed"),
+        trLater("The place of the lattice that the floor under the pointer belongs to"),
         [](ActionContext& c) { addCellAt(c, *c.state.pointedFloor); });
-  there("walk.addApvThere", "Add a single APV where I pointed", "Beside the lattice",
+  there("walk.addApvThere", trLater("Add a single APV where I pointed"), trLater("Beside the lattice"),
         [](ActionContext& c) { addApvAt(c, *c.state.pointedFloor); });
 }
 

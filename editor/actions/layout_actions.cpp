@@ -1,5 +1,6 @@
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/storey_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -22,39 +23,40 @@ void addStoreyActions(std::vector<Action>& table) {
                            showStorey(c.session.project(), *storeyBeside(c.session.project(), steps)));
                      },
                      {},
-                     "a storey there"});
+                     trLater("a storey there")});
   };
-  beside("storey.up", "Storey above", key::pageUp, 1, true);
-  beside("storey.down", "Storey below", key::pageDown, -1, false);
+  beside("storey.up", trLater("Storey above"), key::pageUp, 1, true);
+  beside("storey.down", trLater("Storey below"), key::pageDown, -1, false);
   table.push_back(
       {"storey.find",
        "Plan",
-       "Find more storeys",
+       trLater("Find more storeys"),
        {},
        {},
-       "Looks for floors to walk on that have no layout yet, and lays cells like this storey's on them",
+       trLater(
+           "Looks for floors to walk on that have no layout yet, and lays cells like this storey's on them"),
        false,
        [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
        [](ActionContext& c) { c.session.findStoreys(); },
        {},
-       "that no search runs"});
+       trLater("that no search runs")});
   table.push_back(
       {"storey.stairs",
        "Plan",
-       "Find stairs and ramps",
+       trLater("Find stairs and ramps"),
        {},
        {},
-       "Lays cells on the stairs and ramps between this project's storeys: the walk goes over them",
+       trLater("Lays cells on the stairs and ramps between this project's storeys: the walk goes over them"),
        false,
        [](const ActionContext& c) {
          return withBuilt(c) && c.session.project().storeys.size() > 1 && !c.session.searching().running();
        },
        [](ActionContext& c) { c.session.findStairs(); },
        {},
-       "two storeys, and that no search runs"});
+       trLater("two storeys, and that no search runs")});
   table.push_back({"storey.remove",
                    "Plan",
-                   "Remove this storey",
+                   trLater("Remove this storey"),
                    {},
                    {},
                    "",
@@ -67,7 +69,7 @@ void addStoreyActions(std::vector<Action>& table) {
                      c.session.apply(removeStorey(c.session.project()));
                    },
                    {},
-                   "a second storey"});
+                   trLater("a second storey")});
 }
 
 void addBudgetActions(std::vector<Action>& table) {
@@ -87,16 +89,17 @@ void addBudgetActions(std::vector<Action>& table) {
                      },
                      [run](ActionContext& c) { (c.session.*run)(); },
                      {},
-                     "a triangle budget"});
+                     trLater("a triangle budget")});
   };
-  search("budget.fit", "Fit cells to the budget",
-         "The largest cells whose regions all keep to the triangle budget", false, &Session::fitCells);
-  search("budget.split", "Split cells above the budget",
-         "Only the cells that exceed the triangle budget (configurations e and g)", true,
+  search("budget.fit", trLater("Fit cells to the budget"),
+         trLater("The largest cells whose regions all keep to the triangle budget"), false,
+         &Session::fitCells);
+  search("budget.split", trLater("Split cells above the budget"),
+         trLater("Only the cells that exceed the triangle budget (configurations e and g)"), true,
          &Session::splitOverBudget);
   table.push_back({"search.cancel",
                    "Plan",
-                   "Stop searching",
+                   trLater("Stop searching"),
                    {},
                    {},
                    "",
@@ -106,7 +109,7 @@ void addBudgetActions(std::vector<Action>& table) {
                    },
                    [](ActionContext& c) { c.session.cancelSearch(); },
                    {},
-                   "a running search"});
+                   trLater("a running search")});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/outline_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -14,23 +15,24 @@ bool withOutline(const ActionContext& c) {
 }  // namespace
 
 void addOutlineActions(std::vector<Action>& table) {
-  table.push_back({"outline.fromScene",
-                   "Plan",
-                   "Outline from the scene",
-                   {},
-                   {},
-                   "The walkable area about this floor, as a new project finds it: where a person has head "
-                   "room and stands clear of walls",
-                   true,
-                   [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
-                   [](ActionContext& c) { c.session.outlineFromScene(); },
-                   {}});
+  table.push_back(
+      {"outline.fromScene",
+       "Plan",
+       trLater("Outline from the scene"),
+       {},
+       {},
+       trLater("The walkable area about this floor, as a new project finds it: where a person has head "
+               "room and stands clear of walls"),
+       true,
+       [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
+       [](ActionContext& c) { c.session.outlineFromScene(); },
+       {}});
   table.push_back({"outline.simplify",
                    "Plan",
-                   "Simplify outline",
+                   trLater("Simplify outline"),
                    {},
                    {},
-                   "Fewer corners, none farther from the outline than the distance beside it",
+                   trLater("Fewer corners, none farther from the outline than the distance beside it"),
                    false,
                    withOutline,
                    [](ActionContext& c) {
@@ -40,18 +42,17 @@ void addOutlineActions(std::vector<Action>& table) {
                                        after = cornersOf(edit.project.layout().outline);
                      c.session.messages().add(
                          MessageLevel::info,
-                         before == after
-                             ? "No corner of the outline can go within this distance"
-                             : fmt::format("The outline has {} corners, {} before", after, before));
+                         before == after ? tr("No corner of the outline can go within this distance")
+                                         : trf("The outline has {} corners, {} before", after, before));
                      c.session.apply(std::move(edit));
                    },
                    {}});
   table.push_back({"outline.clear",
                    "Plan",
-                   "Clear outline",
+                   trLater("Clear outline"),
                    {},
                    {},
-                   "Cells are then placed by hand only",
+                   trLater("Cells are then placed by hand only"),
                    false,
                    withOutline,
                    [](ActionContext& c) { c.session.apply(setOutline(c.session.project(), {})); },

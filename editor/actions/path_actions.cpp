@@ -1,6 +1,7 @@
 #include "editor/actions/menu_actions.h"
 #include "editor/actions/path_walk.h"
 #include "editor/commands/walk_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -33,71 +34,72 @@ void removeSelected(ActionContext& c) {
 }
 
 void addRecording(std::vector<Action>& table) {
-  table.push_back({"walk.record",
-                   "Walk",
-                   "Record walk",
-                   {key::r, kCtrl},
-                   {},
-                   "From the first step to the last before this is pressed again; the walk becomes a path",
-                   true,
-                   withBuilt,
-                   startOrStopRecording,
-                   [](const ActionContext& c) { return c.state.recorder.recording(); }});
+  table.push_back(
+      {"walk.record",
+       "Walk",
+       trLater("Record walk"),
+       {key::r, kCtrl},
+       {},
+       trLater("From the first step to the last before this is pressed again; the walk becomes a path"),
+       true,
+       withBuilt,
+       startOrStopRecording,
+       [](const ActionContext& c) { return c.state.recorder.recording(); }});
   table.push_back({"path.play",
                    "Walk",
-                   "Play path",
+                   trLater("Play path"),
                    {key::space, 0},
                    {},
-                   "Along the selected path in real time, or a pause; walking takes over",
+                   trLater("Along the selected path in real time, or a pause; walking takes over"),
                    false,
                    withPath,
                    playOrPause,
                    [](const ActionContext& c) { return c.state.replay.playing(); },
-                   "a selected path"});
+                   trLater("a selected path")});
   table.push_back({"path.stop",
                    "Walk",
-                   "Stop path",
+                   trLater("Stop path"),
                    {},
                    {},
-                   "Back to its beginning",
+                   trLater("Back to its beginning"),
                    false,
                    [](const ActionContext& c) {
                      return withPath(c) && (c.state.replay.playing() || c.state.replay.at() > 0);
                    },
                    stopReplay,
                    {},
-                   "a path that plays"});
+                   trLater("a path that plays")});
   table.push_back({"path.loop",
                    "Walk",
-                   "Loop path",
+                   trLater("Loop path"),
                    {},
                    {},
-                   "Begins again at its end",
+                   trLater("Begins again at its end"),
                    false,
                    withProject,
                    [](ActionContext& c) { c.state.replay.loop = !c.state.replay.loop; },
                    [](const ActionContext& c) { return c.state.replay.loop; }});
   table.push_back({"path.export",
                    "Walk",
-                   "Export path…",
+                   trLater("Export path…"),
                    {},
                    {},
-                   "As a JSON file for `acentric walk --path` and other programs",
+                   trLater("As a JSON file for `acentric walk --path` and other programs"),
                    false,
                    withPath,
                    [](ActionContext& c) { c.state.dialog = Dialog::exportPath; },
                    {},
-                   "a selected path"});
+                   trLater("a selected path")});
 }
 
 void addBookmarks(std::vector<Action>& table) {
   table.push_back(
       {"bookmark.add",
        "Walk",
-       "Bookmark this place",
+       trLater("Bookmark this place"),
        {key::b, kCtrlShift},
        {},
-       "Keeps where the eye is and where it looks, to come back to",
+       trLater("Keeps where the eye is and where it looks, to come back to"),
        true,
        withBuilt,
        [](ActionContext& c) {
@@ -109,21 +111,21 @@ void addBookmarks(std::vector<Action>& table) {
        {}});
   table.push_back({"bookmark.go",
                    "Walk",
-                   "Go to bookmark",
+                   trLater("Go to bookmark"),
                    {key::enter, kCtrl},
                    {},
-                   "To the selected one",
+                   trLater("To the selected one"),
                    false,
                    withBookmark,
                    [](ActionContext& c) { goToBookmark(c, c.state.walkSelection.number); },
                    {},
-                   "a selected bookmark"});
+                   trLater("a selected bookmark")});
   table.push_back({"bookmark.update",
                    "Walk",
-                   "Move bookmark here",
+                   trLater("Move bookmark here"),
                    {},
                    {},
-                   "The selected one then is where the eye is",
+                   trLater("The selected one then is where the eye is"),
                    false,
                    withBookmark,
                    [](ActionContext& c) {
@@ -131,7 +133,7 @@ void addBookmarks(std::vector<Action>& table) {
                                                     pathPose(c.state.walker.pose())));
                    },
                    {},
-                   "a selected bookmark"});
+                   trLater("a selected bookmark")});
 }
 
 }  // namespace
@@ -141,21 +143,21 @@ void addPathActions(std::vector<Action>& table) {
   addBookmarks(table);
   table.push_back({"walks.up",
                    "Walk",
-                   "Move up in the list",
+                   trLater("Move up in the list"),
                    {},
                    {},
-                   "The selected bookmark or path",
+                   trLater("The selected bookmark or path"),
                    true,
                    [](const ActionContext& c) { return withEither(c) && c.state.walkSelection.number > 0; },
                    [](ActionContext& c) { moveSelected(c, -1); },
                    {},
-                   "a selected bookmark or path below another"});
+                   trLater("a selected bookmark or path below another")});
   table.push_back({"walks.down",
                    "Walk",
-                   "Move down in the list",
+                   trLater("Move down in the list"),
                    {},
                    {},
-                   "The selected bookmark or path",
+                   trLater("The selected bookmark or path"),
                    false,
                    [](const ActionContext& c) {
                      const Project* project = withEither(c) ? &c.session.project() : nullptr;
@@ -165,21 +167,21 @@ void addPathActions(std::vector<Action>& table) {
                    },
                    [](ActionContext& c) { moveSelected(c, 1); },
                    {},
-                   "a selected bookmark or path above another"});
+                   trLater("a selected bookmark or path above another")});
   table.push_back({"walks.remove",
                    "Walk",
-                   "Remove bookmark or path",
+                   trLater("Remove bookmark or path"),
                    {},
                    {},
-                   "The selected one; an undo brings it back",
+                   trLater("The selected one; an undo brings it back"),
                    false,
                    withEither,
                    removeSelected,
                    {},
-                   "a selected bookmark or path"});
+                   trLater("a selected bookmark or path")});
   table.push_back({"view.paths",
                    "Plan",
-                   "Show paths and bookmarks",
+                   trLater("Show paths and bookmarks"),
                    {},
                    {},
                    "",

@@ -8,6 +8,7 @@
 #include "editor/commands/storey_edits.h"
 #include "editor/commands/walk_edits.h"
 #include "engine/pipeline/walk_ground.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -59,7 +60,7 @@ bool isAroundNext(const ActionContext& c) {
 void tellReplay(ActionContext& c, const std::string& name) {
   if (const auto report = c.state.replay.takeReport()) {
     c.state.replayReport = describe(*report);
-    c.session.messages().add(MessageLevel::info, "Replay of " + name + ": " + c.state.replayReport);
+    c.session.messages().add(MessageLevel::info, trf("Replay of {}: {}", name, c.state.replayReport));
   }
 }
 
@@ -144,15 +145,14 @@ void startOrStopRecording(ActionContext& c) {
   const int storey = recorder.storey();
   const CameraPath path = recorder.stop();
   if (path.poses.size() < 2) {
-    c.session.messages().add(MessageLevel::warning, "Nothing was recorded: the eye did not move");
+    c.session.messages().add(MessageLevel::warning, tr("Nothing was recorded: the eye did not move"));
     return;
   }
   if (!c.session.apply(addPath(c.session.project(), path, storey))) return;
   const std::vector<WalkPath>& paths = c.session.project().paths;
   selectWalk(c, {WalkSelection::Kind::path, paths.size() - 1, {}});
-  c.session.messages().add(MessageLevel::good,
-                           fmt::format("Recorded {}: {:.1f} s, {} key poses", paths.back().name,
-                                       path.seconds(), path.poses.size()));
+  c.session.messages().add(MessageLevel::good, trf("Recorded {}: {:.1f} s, {} key poses", paths.back().name,
+                                                   path.seconds(), path.poses.size()));
 }
 
 void playOrPause(ActionContext& c) {

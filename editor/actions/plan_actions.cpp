@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -21,19 +22,19 @@ void addOverlayActions(std::vector<Action>& table) {
          [what](ActionContext& c) { c.state.overlay = c.state.overlay == what ? PlanOverlay::bake : what; },
          [what](const ActionContext& c) { return c.state.overlay == what; }});
   };
-  overlay("overlay.bake", "Overlay: bake state", 0, PlanOverlay::bake,
-          "Which cells are baked, being baked, out of date or failed");
-  overlay("view.triangles", "Overlay: triangles", key::t, PlanOverlay::triangles,
-          "Cells coloured by their triangles of local geometry, against the budget");
-  overlay("overlay.bytes", "Overlay: bytes", 0, PlanOverlay::bytes,
-          "Cells coloured by what their captures take on disk");
-  overlay("view.checks", "Overlay: placement checks", key::p, PlanOverlay::checks,
-          "Where cameras stand badly, and where they would stand free");
-  overlay("view.coverage", "Overlay: sampling coverage", key::v, PlanOverlay::coverage,
-          "How finely places are sampled");
-  overlay("overlay.density", "Overlay: sampling density", 0, PlanOverlay::density,
-          "Cells with more or fewer samples per degree than the project");
-  overlay("overlay.none", "No overlay", 0, PlanOverlay::none, "Borders of cells alone");
+  overlay("overlay.bake", trLater("Overlay: bake state"), 0, PlanOverlay::bake,
+          trLater("Which cells are baked, being baked, out of date or failed"));
+  overlay("view.triangles", trLater("Overlay: triangles"), key::t, PlanOverlay::triangles,
+          trLater("Cells coloured by their triangles of local geometry, against the budget"));
+  overlay("overlay.bytes", trLater("Overlay: bytes"), 0, PlanOverlay::bytes,
+          trLater("Cells coloured by what their captures take on disk"));
+  overlay("view.checks", trLater("Overlay: placement checks"), key::p, PlanOverlay::checks,
+          trLater("Where cameras stand badly, and where they would stand free"));
+  overlay("view.coverage", trLater("Overlay: sampling coverage"), key::v, PlanOverlay::coverage,
+          trLater("How finely places are sampled"));
+  overlay("overlay.density", trLater("Overlay: sampling density"), 0, PlanOverlay::density,
+          trLater("Cells with more or fewer samples per degree than the project"));
+  overlay("overlay.none", trLater("No overlay"), 0, PlanOverlay::none, trLater("Borders of cells alone"));
 }
 
 void addCoverageActions(std::vector<Action>& table) {
@@ -54,17 +55,19 @@ void addCoverageActions(std::vector<Action>& table) {
                        return c.state.overlay == PlanOverlay::coverage && c.state.coverageKind == what;
                      }});
   };
-  kind("coverage.surfaces", "Coverage of surfaces", CoverageKind::surfaces,
-       "For each point of a surface that an eye in the walkable area can see: how finely the captures would "
-       "sample it, against what the nearest eye needs.");
-  kind("coverage.layout", "Coverage of the plan", CoverageKind::layout,
-       "How many cameras hold each point of the plan.");
-  kind("coverage.cell", "Coverage of a cell", CoverageKind::cell,
-       "The same for the cameras at the corners of the selected cell, or of the one under the pointer; of a "
-       "free panorama view its own.");
+  kind("coverage.surfaces", trLater("Coverage of surfaces"), CoverageKind::surfaces,
+       trLater("For each point of a surface that an eye in the walkable area can see: how finely the "
+               "captures would "
+               "sample it, against what the nearest eye needs."));
+  kind("coverage.layout", trLater("Coverage of the plan"), CoverageKind::layout,
+       trLater("How many cameras hold each point of the plan."));
+  kind("coverage.cell", trLater("Coverage of a cell"), CoverageKind::cell,
+       trLater("The same for the cameras at the corners of the selected cell, or of the one under the "
+               "pointer; of a "
+               "free panorama view its own."));
   table.push_back({"coverage.next",
                    "Plan",
-                   "Next kind of coverage",
+                   trLater("Next kind of coverage"),
                    {key::v, ui::modifier::shift},
                    {},
                    "",
@@ -95,28 +98,35 @@ void addPlanActions(std::vector<Action>& table) {
                      },
                      [mode](const ActionContext& c) { return c.state.planTool.mode() == mode; }});
   };
-  tool("tool.cells", "Cells", key::digit1, PlanMode::cells,
-       "Click a free place to add a cell, a placed one to select it; drag to move it. Del removes, "
-       "Ctrl+click too.");
-  tool("tool.eye", "Eye", key::digit2, PlanMode::eye, "Press to put the eye there, drag to turn it.");
-  tool("tool.outline", "Outline", key::digit3, PlanMode::outline,
-       "Click free ground to draw the walkable area or a hole in it, Enter closes; drag corners and sides to "
-       "change it.");
-  tool("tool.panorama", "Single APV", key::digit4, PlanMode::panorama,
-       "Click to place a panorama beside the lattice, or drag to choose how far its cameras stand out.");
-  tool("tool.lattice", "Lay lattice", key::digit5, PlanMode::lattice,
-       "Drag the middle to move the lattice, the handle above to turn it, the one at a corner to change the "
-       "cells' size; Shift snaps.");
-  tool("tool.measure", "Measure", key::digit6, PlanMode::measure,
-       "Drag for a distance and a direction; lands on corners of walls, outline and cells.");
-  tool("tool.path", "Path", key::digit7, PlanMode::path,
-       "Click a path or its key poses to select them, drag a pose to move it, drag its tick to turn it; "
-       "press on "
-       "the selected path's line for a new pose, Shift+press on free ground for one at its end. Del removes, "
-       "Ctrl+click too.");
-  tool("tool.density", "Paint density", key::digit8, PlanMode::density,
-       "Press or drag over cells to give them more or fewer samples per degree than the project; Ctrl takes "
-       "that back.");
+  tool("tool.cells", trLater("Cells"), key::digit1, PlanMode::cells,
+       trLater("Click a free place to add a cell, a placed one to select it; drag to move it. Del removes, "
+               "Ctrl+click too."));
+  tool("tool.eye", trLater("Eye"), key::digit2, PlanMode::eye,
+       trLater("Press to put the eye there, drag to turn it."));
+  tool("tool.outline", trLater("Outline"), key::digit3, PlanMode::outline,
+       trLater("Click free ground to draw the walkable area or a hole in it, Enter closes; drag corners and "
+               "sides to "
+               "change it."));
+  tool("tool.panorama", trLater("Single APV"), key::digit4, PlanMode::panorama,
+       trLater(
+           "Click to place a panorama beside the lattice, or drag to choose how far its cameras stand out."));
+  tool("tool.lattice", trLater("Lay lattice"), key::digit5, PlanMode::lattice,
+       trLater("Drag the middle to move the lattice, the handle above to turn it, the one at a corner to "
+               "change the "
+               "cells' size; Shift snaps."));
+  tool("tool.measure", trLater("Measure"), key::digit6, PlanMode::measure,
+       trLater("Drag for a distance and a direction; lands on corners of walls, outline and cells."));
+  tool("tool.path", trLater("Path"), key::digit7, PlanMode::path,
+       trLater(
+           "Click a path or its key poses to select them, drag a pose to move it, drag its tick to turn it; "
+           "press on "
+           "the selected path's line for a new pose, Shift+press on free ground for one at its end. Del "
+           "removes, "
+           "Ctrl+click too."));
+  tool("tool.density", trLater("Paint density"), key::digit8, PlanMode::density,
+       trLater("Press or drag over cells to give them more or fewer samples per degree than the project; "
+               "Ctrl takes "
+               "that back."));
   const auto flag = [&table](const char* id, const char* label, int code, bool EditorState::*member,
                              bool first) {
     table.push_back({id,
@@ -130,18 +140,18 @@ void addPlanActions(std::vector<Action>& table) {
                      [member](ActionContext& c) { c.state.*member = !(c.state.*member); },
                      [member](const ActionContext& c) { return c.state.*member; }});
   };
-  flag("view.backdrop", "Show scene", key::b, &EditorState::showBackdrop, true);
-  flag("view.lattice", "Show free lattice", key::g, &EditorState::showLattice, false);
-  flag("view.cameras", "Show cameras", key::c, &EditorState::showCameras, false);
-  flag("view.table", "Table of regions", key::l, &EditorState::showTable, false);
+  flag("view.backdrop", trLater("Show scene"), key::b, &EditorState::showBackdrop, true);
+  flag("view.lattice", trLater("Show free lattice"), key::g, &EditorState::showLattice, false);
+  flag("view.cameras", trLater("Show cameras"), key::c, &EditorState::showCameras, false);
+  flag("view.table", trLater("Table of regions"), key::l, &EditorState::showTable, false);
   addOverlayActions(table);
   addCoverageActions(table);
   table.push_back({"view.fit",
                    "Plan",
-                   "Show everything",
+                   trLater("Show everything"),
                    {key::f, 0},
                    {},
-                   "All that is laid out; in 3D the selected cells, if any are",
+                   trLater("All that is laid out; in 3D the selected cells, if any are"),
                    true,
                    withProject,
                    [](ActionContext& c) {

@@ -10,6 +10,7 @@
 #include "editor/commands/selection.h"
 #include "engine/pipeline/camera_path.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -51,9 +52,9 @@ bool takeOver(ActionContext& c, View view, int button) {
 void moveSelected(ActionContext& c, const std::set<CellId>& cells, const LatticeStep& step) {
   GroupEdit moved = moveCells(c.session.project(), cells, step);
   if (moved.skipped > 0)
-    c.session.messages().add(MessageLevel::info,
-                             fmt::format("{} of the places {} taken: nothing was moved", moved.skipped,
-                                         moved.skipped == 1 ? "is" : "are"));
+    c.session.messages().add(MessageLevel::info, trfMany("{} of the places is taken: nothing was moved",
+                                                         "{} of the places are taken: nothing was moved",
+                                                         moved.skipped, moved.skipped));
   else if (c.session.apply(std::move(moved.edit)))
     c.state.selection = std::move(moved.cells);
 }

@@ -4,6 +4,7 @@
 
 #include "editor/commands/layout_edits.h"
 #include "engine/pipeline/scene_scale.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -35,11 +36,11 @@ Edit pushOut(const Project& project, const ProblemFix& fix) {
   const LayoutSpec& spec = project.layout();
   if (!fix.freeApv) {
     Edit edit = setLatticeOrigin(project, spec.latticeOrigin + fix.push);
-    edit.label = fmt::format("Shift the lattice by {:.2f} m", glm::length(fix.push));
+    edit.label = trf("Shift the lattice by {:.2f} m", glm::length(fix.push));
     return edit;
   }
   const auto found = spec.freeApvs.find(*fix.freeApv);
-  if (found == spec.freeApvs.end()) return {project, "Move a panorama"};
+  if (found == spec.freeApvs.end()) return {project, tr("Move a panorama")};
   Apv moved = found->second;
   moved.centre += fix.push;
   return setFreeApv(project, *fix.freeApv, moved);
@@ -47,7 +48,7 @@ Edit pushOut(const Project& project, const ProblemFix& fix) {
 
 Edit changeScale(const Project& project, const Scene& scene, const ProblemFix& fix) {
   const double metres = fix.metresPerUnit.value_or(scene.report.metresPerUnit);
-  return {atScale(project, scene, metres), fmt::format("Scale the model to {:g} metres per unit", metres)};
+  return {atScale(project, scene, metres), trf("Scale the model to {:g} metres per unit", metres)};
 }
 
 }  // namespace acentric::editor

@@ -1,4 +1,5 @@
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -18,7 +19,7 @@ void add(std::vector<Action>& table, const char* id, const char* label, const ch
                    enabled,
                    std::move(run),
                    {},
-                   "a published walk that is served"});
+                   trLater("a published walk that is served")});
 }
 
 /// Of the page, at the eye's view.
@@ -33,10 +34,10 @@ std::string linkToView(const ActionContext& c) {
 void addPublishActions(std::vector<Action>& table) {
   table.push_back({"file.publish",
                    "File",
-                   "Publish…",
+                   trLater("Publish…"),
                    {key::e, kCtrl},
                    {},
-                   "Writes the walk as a folder for web servers, and shows it in the browser",
+                   trLater("Writes the walk as a folder for web servers, and shows it in the browser"),
                    true,
                    withBuilt,
                    [](ActionContext& c) {
@@ -47,15 +48,17 @@ void addPublishActions(std::vector<Action>& table) {
                      c.state.dialog = Dialog::publish;
                    },
                    {}});
-  add(table, "publish.open", "Open the published walk in the browser", "", isServed,
+  add(table, "publish.open", trLater("Open the published walk in the browser"), "", isServed,
       [](ActionContext& c) { c.session.publishing().openInBrowser(); });
-  add(table, "publish.copyView", "Copy a link to this view",
-      "The published walk, seen as the walk shows it here", hasLink,
+  add(table, "publish.copyView", trLater("Copy a link to this view"),
+      trLater("The published walk, seen as the walk shows it here"), hasLink,
       [](ActionContext& c) { c.state.toClipboard = linkToView(c); });
-  add(table, "publish.copyStart", "Copy a link to the start", "The published walk, where it begins", hasLink,
+  add(table, "publish.copyStart", trLater("Copy a link to the start"),
+      trLater("The published walk, where it begins"), hasLink,
       [](ActionContext& c) { c.state.toClipboard = c.session.linkToWalk(); });
-  add(table, "publish.stop", "Stop serving the published walk", "What is published stays in its folder",
-      isServed, [](ActionContext& c) { c.session.publishing().stopServing(); });
+  add(table, "publish.stop", trLater("Stop serving the published walk"),
+      trLater("What is published stays in its folder"), isServed,
+      [](ActionContext& c) { c.session.publishing().stopServing(); });
 }
 
 }  // namespace acentric::editor

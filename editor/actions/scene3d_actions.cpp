@@ -1,4 +1,5 @@
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -28,25 +29,26 @@ void addPlacing(std::vector<Action>& table) {
   table.push_back(
       {"scene3d.select",
        "View",
-       "Select in 3D",
+       trLater("Select in 3D"),
        {},
        {},
-       "Click a cell, a single APV, a corner of the outline or a key pose to select it; its arrows move "
-       "it, its ring turns it (Shift snaps). Drag elsewhere orbits.",
+       trLater(
+           "Click a cell, a single APV, a corner of the outline or a key pose to select it; its arrows move "
+           "it, its ring turns it (Shift snaps). Drag elsewhere orbits."),
        true,
        inScene3d,
        [](ActionContext& c) { setPlacing(c, false); },
        [](const ActionContext& c) {
          return !c.state.scene3d.placing && c.state.planTool.mode() == PlanMode::cells;
        },
-       "the 3D view"});
+       trLater("the 3D view")});
   table.push_back(
       {"scene3d.place",
        "View",
-       "Place cells in 3D",
+       trLater("Place cells in 3D"),
        {key::y, 0},
        {},
-       "Click a free place of the floor to add a cell, drag a placed one to move it, as on the plan",
+       trLater("Click a free place of the floor to add a cell, drag a placed one to move it, as on the plan"),
        false,
        inScene3d,
        [](ActionContext& c) {
@@ -55,56 +57,58 @@ void addPlacing(std::vector<Action>& table) {
        [](const ActionContext& c) {
          return c.state.scene3d.placing && c.state.planTool.mode() == PlanMode::cells;
        },
-       "the 3D view"});
+       trLater("the 3D view")});
 }
 
 void addSwitches(std::vector<Action>& table) {
   table.push_back(
       {"scene3d.cut",
        "View",
-       "Cut the ceiling away",
+       trLater("Cut the ceiling away"),
        {key::u, 0},
        {},
-       "Takes away all that is above the eyes, as on the plan",
+       trLater("Takes away all that is above the eyes, as on the plan"),
        true,
        inScene3d,
        [](ActionContext& c) {
          c.state.scene3d.cutCeiling = !c.state.scene3d.cutCeiling.value_or(c.state.scene3d.ceiling);
        },
        [](const ActionContext& c) { return c.state.scene3d.cutCeiling.value_or(c.state.scene3d.ceiling); },
-       "the 3D view"});
+       trLater(trLater("the 3D view"))});
   table.push_back({"scene3d.frusta",
                    "View",
-                   "Show sectors of all cameras",
+                   trLater("Show sectors of all cameras"),
                    {},
                    {},
-                   "Of every camera, not of the selected cells' alone",
+                   trLater("Of every camera, not of the selected cells' alone"),
                    false,
                    inScene3d,
                    [](ActionContext& c) { c.state.scene3d.allFrusta = !c.state.scene3d.allFrusta; },
                    [](const ActionContext& c) { return c.state.scene3d.allFrusta; },
-                   "the 3D view"});
-  table.push_back({"scene3d.pick",
-                   "View",
-                   "Pick surfaces",
-                   {key::i, 0},
-                   {},
-                   "Click a surface to ask which cameras sample it, and how finely; Alt+click does too",
-                   true,
-                   inScene3d,
-                   [](ActionContext& c) { c.state.scene3d.picking = !c.state.scene3d.picking; },
-                   [](const ActionContext& c) { return c.state.scene3d.picking; },
-                   "the 3D view"});
+                   trLater(trLater("the 3D view"))});
+  table.push_back(
+      {"scene3d.pick",
+       "View",
+       trLater("Pick surfaces"),
+       {key::i, 0},
+       {},
+       trLater("Click a surface to ask which cameras sample it, and how finely; Alt+click does too"),
+       true,
+       inScene3d,
+       [](ActionContext& c) { c.state.scene3d.picking = !c.state.scene3d.picking; },
+       [](const ActionContext& c) { return c.state.scene3d.picking; },
+       trLater(trLater("the 3D view"))});
 }
 
 void addCameraSteps(std::vector<Action>& table) {
   table.push_back(
       {"scene3d.lookThrough",
        "View",
-       "Look through a camera",
+       trLater("Look through a camera"),
        {key::o, 0},
        {},
-       "The picture that a camera of the selected cell will take; double click on a camera for its own",
+       trLater(
+           "The picture that a camera of the selected cell will take; double click on a camera for its own"),
        false,
        [](const ActionContext& c) {
          return inScene3d(c) && (c.state.scene3d.lookThrough || selectedCamera(c));
@@ -114,7 +118,7 @@ void addCameraSteps(std::vector<Action>& table) {
          place = place ? std::nullopt : selectedCamera(c);
        },
        [](const ActionContext& c) { return c.state.scene3d.lookThrough.has_value(); },
-       "the 3D view and a selected cell"});
+       trLater("the 3D view and a selected cell")});
   const auto step = [&table](const char* id, const char* label, int code, int steps) {
     table.push_back({id,
                      "View",
@@ -129,17 +133,17 @@ void addCameraSteps(std::vector<Action>& table) {
                            stepped(*c.session.built()->layout, *c.state.scene3d.lookThrough, steps);
                      },
                      {},
-                     "a camera that is looked through"});
+                     trLater("a camera that is looked through")});
   };
-  step("scene3d.previousCamera", "Previous camera of the ring", key::comma, -1);
-  step("scene3d.nextCamera", "Next camera of the ring", key::period, 1);
+  step("scene3d.previousCamera", trLater("Previous camera of the ring"), key::comma, -1);
+  step("scene3d.nextCamera", trLater("Next camera of the ring"), key::period, 1);
   table.push_back(
       {"scene3d.otherHand",
        "View",
-       "Camera of the other hand",
+       trLater("Camera of the other hand"),
        {key::slash, 0},
        {},
-       "Of the ring that turns the other way, the camera that looks most nearly the same way",
+       trLater("Of the ring that turns the other way, the camera that looks most nearly the same way"),
        false,
        [](const ActionContext& c) {
          return lookingThrough(c) && otherHand(*c.session.built()->layout, *c.state.scene3d.lookThrough);
@@ -148,7 +152,7 @@ void addCameraSteps(std::vector<Action>& table) {
          c.state.scene3d.lookThrough = otherHand(*c.session.built()->layout, *c.state.scene3d.lookThrough);
        },
        {},
-       "a camera that is looked through, of a cell with both hands"});
+       trLater("a camera that is looked through, of a cell with both hands")});
 }
 
 }  // namespace

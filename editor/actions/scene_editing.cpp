@@ -12,6 +12,7 @@
 #include "editor/tools/scene_hits.h"
 #include "ui/canvas_view.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -289,7 +290,8 @@ std::string SceneEditing::text(const ActionContext& c) const {
     }
     const glm::dvec2 by = cells_->group.metresOf(cells_->step);
     std::string words = fmt::format("x {:+.3f} m   y {:+.3f} m", by.x, by.y);
-    if (cells_->step != LatticeStep{} && !cells_->group.fits(cells_->step, true)) words += ", places taken";
+    if (cells_->step != LatticeStep{} && !cells_->group.fits(cells_->step, true))
+      words += std::string(", ") + tr("places taken");
     return words;
   }
   const PlanTool& tool = c.state.planTool;

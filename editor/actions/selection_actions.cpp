@@ -3,6 +3,7 @@
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/group_edits.h"
 #include "editor/commands/selection.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -11,14 +12,15 @@ bool anySelected(const ActionContext& c) { return c.session.hasProject() && !c.s
 
 /// Tells how many places were taken.
 void applyGroup(ActionContext& c, GroupEdit group, bool whole) {
-  const auto tell = [&](const char* words) {
-    c.session.messages().add(MessageLevel::info, fmt::format("{} place{} {}", group.skipped,
-                                                             group.skipped == 1 ? "" : "s", words));
-  };
-  if (group.skipped > 0 && (whole || group.cells.empty()))
-    return tell(group.skipped == 1 ? "is taken: nothing was moved" : "are taken: nothing was moved");
-  if (group.skipped > 0)
-    tell(group.skipped == 1 ? "was taken and left as it is" : "were taken and left as they are");
+  const std::size_t skipped = group.skipped;
+  if (skipped > 0 && (whole || group.cells.empty()))
+    return c.session.messages().add(MessageLevel::info,
+                                    trfMany("{} place is taken: nothing was moved",
+                                            "{} places are taken: nothing was moved", skipped, skipped));
+  if (skipped > 0)
+    c.session.messages().add(MessageLevel::info,
+                             trfMany("{} place was taken and left as it is",
+                                     "{} places were taken and left as they are", skipped, skipped));
   if (c.session.apply(std::move(group.edit))) c.state.selection = std::move(group.cells);
 }
 
@@ -30,7 +32,7 @@ void addNudges(std::vector<Action>& table) {
                      label,
                      {code, kCtrl},
                      {},
-                     "By one step of the lattice, onto free places",
+                     trLater("By one step of the lattice, onto free places"),
                      first,
                      anySelected,
                      [direction](ActionContext& c) {
@@ -40,21 +42,21 @@ void addNudges(std::vector<Action>& table) {
                                   true);
                      },
                      {},
-                     "a selected cell"});
+                     trLater("a selected cell")});
   };
-  nudge("edit.nudgeRight", "Move selection right", key::right, {1, 0}, true);
-  nudge("edit.nudgeLeft", "Move selection left", key::left, {-1, 0}, false);
-  nudge("edit.nudgeUp", "Move selection up", key::up, {0, 1}, false);
-  nudge("edit.nudgeDown", "Move selection down", key::down, {0, -1}, false);
+  nudge("edit.nudgeRight", trLater("Move selection right"), key::right, {1, 0}, true);
+  nudge("edit.nudgeLeft", trLater("Move selection left"), key::left, {-1, 0}, false);
+  nudge("edit.nudgeUp", trLater("Move selection up"), key::up, {0, 1}, false);
+  nudge("edit.nudgeDown", trLater("Move selection down"), key::down, {0, -1}, false);
 }
 
 void addCopies(std::vector<Action>& table) {
   table.push_back({"edit.duplicate",
                    "Edit",
-                   "Duplicate selection",
+                   trLater("Duplicate selection"),
                    {key::d, kCtrl},
                    {},
-                   "A copy on the nearest free places",
+                   trLater("A copy on the nearest free places"),
                    true,
                    anySelected,
                    [](ActionContext& c) {
@@ -62,29 +64,29 @@ void addCopies(std::vector<Action>& table) {
                      const auto step = CellGroup(project.layout(), c.state.selection).nearestFreeStep();
                      if (!step)
                        return c.session.messages().add(MessageLevel::info,
-                                                       "There are no free places for a copy nearby");
+                                                       tr("There are no free places for a copy nearby"));
                      applyGroup(c, copyCells(project, c.state.selection, {*step}), true);
                    },
                    {},
-                   "a selected cell"});
+                   trLater("a selected cell")});
   table.push_back(
       {"edit.array",
        "Edit",
-       "Array of the selection…",
+       trLater("Array of the selection…"),
        {key::d, kCtrlShift},
        {},
-       "Rows of copies along the lattice, with a preview",
+       trLater("Rows of copies along the lattice, with a preview"),
        false,
        anySelected,
        [](ActionContext& c) { c.state.array = roomyArray(c.session.project().layout(), c.state.selection); },
        {},
-       "a selected cell"});
+       trLater("a selected cell")});
   table.push_back({"edit.placeArray",
                    "",
-                   "Place",
+                   trLater("Place"),
                    {},
                    {},
-                   "Lays the copies that the plan shows",
+                   trLater("Lays the copies that the plan shows"),
                    false,
                    [](const ActionContext& c) { return anySelected(c) && c.state.array.has_value(); },
                    [](ActionContext& c) {
@@ -93,7 +95,7 @@ void addCopies(std::vector<Action>& table) {
                      c.state.array.reset();
                    },
                    {},
-                   "an array of the selection"});
+                   trLater("an array of the selection")});
 }
 
 std::set<CellId> ofKind(const ActionContext& c, bool ring) {
@@ -116,16 +118,16 @@ void addSelecting(std::vector<Action>& table) {
                      [cells](ActionContext& c) { c.state.selection = cells(c); },
                      {}});
   };
-  select("edit.selectAll", "Select all cells", {key::a, kCtrl}, "",
+  select("edit.selectAll", trLater("Select all cells"), {key::a, kCtrl}, "",
          [](const ActionContext& c) { return inverted(*c.session.built()->layout, {}); });
   table.back().separatorBefore = true;
-  select("edit.invertSelection", "Invert selection", {key::i, kCtrl}, "",
+  select("edit.invertSelection", trLater("Invert selection"), {key::i, kCtrl}, "",
          [](const ActionContext& c) { return inverted(*c.session.built()->layout, c.state.selection); });
-  select("edit.selectRings", "Select rings", {}, "Cells with cameras all around them",
+  select("edit.selectRings", trLater("Select rings"), {}, trLater("Cells with cameras all around them"),
          [](const ActionContext& c) { return ofKind(c, true); });
-  select("edit.selectGaps", "Select gaps", {}, "Cells between the rings",
+  select("edit.selectGaps", trLater("Select gaps"), {}, trLater("Cells between the rings"),
          [](const ActionContext& c) { return ofKind(c, false); });
-  select("edit.selectNotBaked", "Select what is not baked", {}, "Cells that lack a capture",
+  select("edit.selectNotBaked", trLater("Select what is not baked"), {}, trLater("Cells that lack a capture"),
          [](const ActionContext& c) {
            const auto& captures = c.session.captures();
            return cellsWhere(*c.session.built()->layout, [&](std::size_t r) {
@@ -146,12 +148,14 @@ void addSelecting(std::vector<Action>& table) {
                      },
                      [what](ActionContext& c) { c.state.selectionWish = what; },
                      {},
-                     "a triangle budget"});
+                     trLater("a triangle budget")});
   };
-  wish("edit.selectOverBudget", "Select what is over budget",
-       "Cells with more triangles of local geometry than the budget allows", SelectionWish::overBudget);
-  wish("edit.selectWarnings", "Select what has warnings",
-       "Cells that the placement checks warn of, or one of whose cameras", SelectionWish::withWarnings);
+  wish("edit.selectOverBudget", trLater("Select what is over budget"),
+       trLater("Cells with more triangles of local geometry than the budget allows"),
+       SelectionWish::overBudget);
+  wish("edit.selectWarnings", trLater("Select what has warnings"),
+       trLater("Cells that the placement checks warn of, or one of whose cameras"),
+       SelectionWish::withWarnings);
 }
 
 }  // namespace

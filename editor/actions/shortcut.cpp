@@ -1,6 +1,7 @@
 #include "editor/actions/shortcut.h"
 
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -9,33 +10,33 @@ std::string nameOfKey(int code) {
   namespace key = ui::key;
   switch (code) {
     case key::space:
-      return "Space";
+      return trIn("key", "Space");
     case key::escape:
-      return "Esc";
+      return trIn("key", "Esc");
     case key::enter:
-      return "Enter";
+      return trIn("key", "Enter");
     case key::tab:
-      return "Tab";
+      return trIn("key", "Tab");
     case key::backspace:
-      return "Backspace";
+      return trIn("key", "Backspace");
     case key::insert:
-      return "Insert";
+      return trIn("key", "Insert");
     case key::del:
-      return "Del";
+      return trIn("key", "Del");
     case key::pageUp:
-      return "Page Up";
+      return trIn("key", "Page Up");
     case key::pageDown:
-      return "Page Down";
+      return trIn("key", "Page Down");
     case key::home:
-      return "Home";
+      return trIn("key", "Home");
     case key::left:
-      return "Left";
+      return trIn("key", "Left");
     case key::right:
-      return "Right";
+      return trIn("key", "Right");
     case key::up:
-      return "Up";
+      return trIn("key", "Up");
     case key::down:
-      return "Down";
+      return trIn("key", "Down");
     default:
       break;
   }
@@ -49,9 +50,9 @@ std::string nameOfKey(int code) {
 std::string describe(const Shortcut& shortcut) {
   if (shortcut.key == 0) return {};
   std::string text;
-  if ((shortcut.modifiers & ui::modifier::control) != 0) text += "Ctrl+";
-  if ((shortcut.modifiers & ui::modifier::alt) != 0) text += "Alt+";
-  if ((shortcut.modifiers & ui::modifier::shift) != 0) text += "Shift+";
+  if ((shortcut.modifiers & ui::modifier::control) != 0) text += trIn("key", "Ctrl") + std::string("+");
+  if ((shortcut.modifiers & ui::modifier::alt) != 0) text += trIn("key", "Alt") + std::string("+");
+  if ((shortcut.modifiers & ui::modifier::shift) != 0) text += trIn("key", "Shift") + std::string("+");
   return text + nameOfKey(shortcut.key);
 }
 

@@ -1,4 +1,5 @@
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -16,12 +17,14 @@ void addTabActions(std::vector<Action>& table) {
                      [shown](ActionContext& c) { c.state.bottomTab = shown; },
                      [shown](const ActionContext& c) { return c.state.bottomTab == shown; }});
   };
-  tab("tab.history", "Edit", "Show history", {key::h, kCtrl},
-      "Every edit; click one to go back or forth to it", BottomTab::history, true);
-  tab("tab.problems", "Plan", "Show problems", {key::p, kCtrl}, "What is wrong, or deserves a look",
-      BottomTab::problems, true);
-  tab("tab.paths", "Walk", "Show paths", {}, "Bookmarks and recorded walks", BottomTab::paths, true);
-  tab("tab.messages", "Help", "Show messages", {}, "What the program has said", BottomTab::messages, false);
+  tab("tab.history", "Edit", trLater("Show history"), {key::h, kCtrl},
+      trLater("Every edit; click one to go back or forth to it"), BottomTab::history, true);
+  tab("tab.problems", "Plan", trLater("Show problems"), {key::p, kCtrl},
+      trLater("What is wrong, or deserves a look"), BottomTab::problems, true);
+  tab("tab.paths", "Walk", trLater("Show paths"), {}, trLater("Bookmarks and recorded walks"),
+      BottomTab::paths, true);
+  tab("tab.messages", "Help", trLater("Show messages"), {}, trLater("What the program has said"),
+      BottomTab::messages, false);
 }
 
 }  // namespace acentric::editor

@@ -1,15 +1,16 @@
 #include "editor/actions/menu_actions.h"
 #include "editor/commands/setting_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
 void addWalkActions(std::vector<Action>& table) {
   table.push_back({"bake.start",
                    "Walk",
-                   "Bake",
+                   trLater("Bake"),
                    {key::b, kCtrl},
                    {},
-                   "Bake what is missing, nearest to where you stand first",
+                   trLater("Bake what is missing, nearest to where you stand first"),
                    false,
                    [](const ActionContext& c) { return withBuilt(c) && !c.session.baking().running(); },
                    [](ActionContext& c) {
@@ -17,52 +18,52 @@ void addWalkActions(std::vector<Action>& table) {
                      c.session.startBake(glm::dvec2(c.state.walker.pose().eye));
                    },
                    {},
-                   "that no bake runs"});
+                   trLater("that no bake runs")});
   table.push_back({"bake.takeOver",
                    "Walk",
-                   "Take over bake",
+                   trLater("Take over bake"),
                    {},
                    {},
-                   "Bake here although another program bakes this project; that one ends",
+                   trLater("Bake here although another program bakes this project; that one ends"),
                    false,
                    [](const ActionContext& c) {
                      return withBuilt(c) && !c.session.baking().running() && !c.session.untitled();
                    },
                    [](ActionContext& c) { c.session.startBake(glm::dvec2(c.state.walker.pose().eye), true); },
                    {},
-                   "a saved project, and that no bake runs"});
+                   trLater("a saved project, and that no bake runs")});
   table.push_back({"bake.cancel",
                    "Walk",
-                   "Cancel bake",
+                   trLater("Cancel bake"),
                    {},
                    {},
-                   "What is finished stays",
+                   trLater("What is finished stays"),
                    false,
                    [](const ActionContext& c) {
                      return c.session.baking().running() && !c.session.baking().cancelling();
                    },
                    [](ActionContext& c) { c.session.cancelBake(); },
                    {},
-                   "a running bake"});
+                   trLater("a running bake")});
   table.push_back({"bake.pause",
                    "Walk",
-                   "Pause bake",
+                   trLater("Pause bake"),
                    {},
                    {},
-                   "Leaves the processors to others until it goes on",
+                   trLater("Leaves the processors to others until it goes on"),
                    true,
                    [](const ActionContext& c) {
                      return c.session.baking().running() && !c.session.baking().cancelling();
                    },
                    [](ActionContext& c) { c.session.pauseBake(!c.session.bakePaused()); },
                    [](const ActionContext& c) { return c.session.bakePaused(); },
-                   "a running bake"});
+                   trLater("a running bake")});
   table.push_back({"bake.estimate",
                    "Walk",
-                   "Estimate the bake",
+                   trLater("Estimate the bake"),
                    {},
                    {},
-                   "Tells time and bytes of what is missing, by baking a little of it",
+                   trLater("Tells time and bytes of what is missing, by baking a little of it"),
                    false,
                    [](const ActionContext& c) {
                      return withBuilt(c) && !c.session.baking().running() &&
@@ -70,10 +71,10 @@ void addWalkActions(std::vector<Action>& table) {
                    },
                    [](ActionContext& c) { c.session.estimateBake(); },
                    {},
-                   "that no bake or estimate runs"});
+                   trLater("that no bake or estimate runs")});
   table.push_back({"walk.restart",
                    "Walk",
-                   "Go to start",
+                   trLater("Go to start"),
                    {key::home, 0},
                    {},
                    "",
@@ -83,10 +84,10 @@ void addWalkActions(std::vector<Action>& table) {
                    {}});
   table.push_back({"walk.setStart",
                    "Walk",
-                   "Start here",
+                   trLater("Start here"),
                    {key::home, kCtrl},
                    {},
-                   "The walk begins where the eye is now, and baking begins near it",
+                   trLater("The walk begins where the eye is now, and baking begins near it"),
                    false,
                    withBuilt,
                    [](ActionContext& c) {

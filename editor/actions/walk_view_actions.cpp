@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -21,36 +22,36 @@ void addLooks(std::vector<Action>& table) {
                      },
                      [shown](const ActionContext& c) { return c.state.walkLook == shown; }});
   };
-  look("view.holes", "Mark holes", {key::h, 0},
-       "Pixels without a real sample in magenta, those filled in by guesswork too", WalkLook::holes);
-  look("view.sources", "Cameras by colour", {key::r, 0},
-       "Which camera painted each pixel; point at one for its name", WalkLook::sources);
-  look("view.split", "Split with the truth", {key::k, 0},
-       "The walk left, the ray-traced truth right of a border that can be dragged", WalkLook::split);
-  look("view.difference", "Difference from the truth", {key::k, ui::modifier::shift},
-       "How far each pixel is from the ray-traced truth, amplified", WalkLook::difference);
+  look("view.holes", trLater("Mark holes"), {key::h, 0},
+       trLater("Pixels without a real sample in magenta, those filled in by guesswork too"), WalkLook::holes);
+  look("view.sources", trLater("Cameras by colour"), {key::r, 0},
+       trLater("Which camera painted each pixel; point at one for its name"), WalkLook::sources);
+  look("view.split", trLater("Split with the truth"), {key::k, 0},
+       trLater("The walk left, the ray-traced truth right of a border that can be dragged"), WalkLook::split);
+  look("view.difference", trLater("Difference from the truth"), {key::k, ui::modifier::shift},
+       trLater("How far each pixel is from the ray-traced truth, amplified"), WalkLook::difference);
   table.push_back(
       {"variant.keep",
        "Walk",
-       "Keep as variant",
+       trLater("Keep as variant"),
        {},
        {},
-       "Keeps the project as it is now, to be compared with what it becomes; its captures have to "
-       "stay on disk",
+       trLater("Keeps the project as it is now, to be compared with what it becomes; its captures have to "
+               "stay on disk"),
        false,
        withBuilt,
        [](ActionContext& c) {
          c.session.variants().keep(c.session.built());
          c.session.messages().add(MessageLevel::info,
-                                  "Kept. Change the project, bake, and press N to compare.");
+                                  tr("Kept. Change the project, bake, and press N to compare."));
        },
        {}});
-  look("view.variant", "Compare with the kept variant", {key::n, 0},
-       "The kept variant left, the project as it is now right of a border that can be dragged",
+  look("view.variant", trLater("Compare with the kept variant"), {key::n, 0},
+       trLater("The kept variant left, the project as it is now right of a border that can be dragged"),
        WalkLook::variant);
   Action& compare = table.back();
   compare.enabled = [](const ActionContext& c) { return withProject(c) && c.session.variants().kept(); };
-  compare.needs = "a variant that was kept";
+  compare.needs = trLater("a variant that was kept");
 }
 
 /// Shown beside the picture where they matter, not in a menu.
@@ -62,8 +63,8 @@ void addCompareSettings(std::vector<Action>& table) {
          fmt::format("{}", rays),
          {},
          {},
-         "Rays per pixel that the truth ends with: a regular grid, averaged. More: smoother edges, "
-         "as many times longer.",
+         trLater("Rays per pixel that the truth ends with: a regular grid, averaged. More: smoother edges, "
+                 "as many times longer."),
          false,
          withProject,
          [rays](ActionContext& c) { c.state.truthRays = rays; },
@@ -74,7 +75,7 @@ void addCompareSettings(std::vector<Action>& table) {
                      fmt::format("×{}", gain),
                      {},
                      {},
-                     "Differences of sRGB codes are multiplied by this",
+                     trLater("Differences of sRGB codes are multiplied by this"),
                      false,
                      withProject,
                      [gain](ActionContext& c) { c.state.differenceGain = gain; },
@@ -99,24 +100,26 @@ void addWalkViewActions(std::vector<Action>& table) {
                      [member](ActionContext& c) { c.state.*member = !(c.state.*member); },
                      [member](const ActionContext& c) { return c.state.*member; }});
   };
-  flag("view.minimap", "Show minimap", {key::m, 0},
-       "The plan in a corner of the walk, with the eye and the cameras that the picture is painted from",
+  flag("view.minimap", trLater("Show minimap"), {key::m, 0},
+       trLater(
+           "The plan in a corner of the walk, with the eye and the cameras that the picture is painted from"),
        &EditorState::showMinimap, true);
-  flag("view.images", "List images in use", {key::m, ui::modifier::shift},
-       "In the order in which they are painted; point at one to see what it paints", &EditorState::showImages,
-       false);
-  flag("walk.ask", "Ask the picture", {key::j, 0},
-       "A click on the walk tells what painted it, how far it is from the truth, and what would improve it; "
-       "Alt+click does so at any time",
+  flag("view.images", trLater("List images in use"), {key::m, ui::modifier::shift},
+       trLater("In the order in which they are painted; point at one to see what it paints"),
+       &EditorState::showImages, false);
+  flag("walk.ask", trLater("Ask the picture"), {key::j, 0},
+       trLater("A click on the walk tells what painted it, how far it is from the truth, and what would "
+               "improve it; "
+               "Alt+click does so at any time"),
        &EditorState::asking, true);
-  flag("view.frameTimes", "Graph frame times", {key::f3, 0},
-       "What the newest frames of the walk took, part by part", &EditorState::showFrameTimes, false);
+  flag("view.frameTimes", trLater("Graph frame times"), {key::f3, 0},
+       trLater("What the newest frames of the walk took, part by part"), &EditorState::showFrameTimes, false);
   table.push_back({"walk.screenshot",
                    "Walk",
-                   "Save picture",
+                   trLater("Save picture"),
                    {key::f12, 0},
                    {},
-                   "Writes what the walk shows as a PNG beside the project, under a new name",
+                   trLater("Writes what the walk shows as a PNG beside the project, under a new name"),
                    true,
                    [](const ActionContext& c) {
                      return withBuilt(c) && c.session.walk() && !c.session.savingPicture().running();

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "editor/actions/menu_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -27,20 +28,20 @@ void changeScale(ActionContext& c, int steps) {
 void addPreferenceActions(std::vector<Action>& table) {
   table.push_back({"file.preferences",
                    "File",
-                   "Preferences…",
+                   trLater("Preferences…"),
                    {key::comma, kCtrl},
                    {},
-                   "Theme, size of the interface, threads and memory, walking, autosave, start-up",
+                   trLater("Theme, size of the interface, threads and memory, walking, autosave, start-up"),
                    true,
                    always,
                    [](ActionContext& c) { c.state.dialog = Dialog::preferences; },
                    {}});
   table.push_back({"window.lightTheme",
                    "File",
-                   "Light theme",
+                   trLater("Light theme"),
                    {},
                    {},
-                   "Dark ink on light ground; dark theme again when switched off",
+                   trLater("Dark ink on light ground; dark theme again when switched off"),
                    false,
                    always,
                    [](ActionContext& c) {
@@ -51,10 +52,10 @@ void addPreferenceActions(std::vector<Action>& table) {
                    [](const ActionContext& c) { return c.session.preferences().theme == Theme::light; }});
   table.push_back({"window.resetLayout",
                    "File",
-                   "Reset window layout",
+                   trLater("Reset window layout"),
                    {},
                    {},
-                   "The panes get their first sizes back",
+                   trLater("The panes get their first sizes back"),
                    false,
                    always,
                    [](ActionContext& c) {
@@ -77,14 +78,16 @@ void addWindowActions(std::vector<Action>& table) {
                      [steps](ActionContext& c) { changeScale(c, steps); },
                      {}});
   };
-  scale("window.larger", "Larger interface", key::equal, "Texts, buttons and marks, up to 200 %", 1);
-  scale("window.smaller", "Smaller interface", key::minus, "Texts, buttons and marks, down to 75 %", -1);
+  scale("window.larger", trLater("Larger interface"), key::equal,
+        trLater("Texts, buttons and marks, up to 200 %"), 1);
+  scale("window.smaller", trLater("Smaller interface"), key::minus,
+        trLater("Texts, buttons and marks, down to 75 %"), -1);
   table.push_back({"window.automaticScale",
                    "",
-                   "Interface as large as the display asks",
+                   trLater("Interface as large as the display asks"),
                    {key::digit0, kCtrl},
                    {},
-                   "The size follows the scale that is set for the monitor",
+                   trLater("The size follows the scale that is set for the monitor"),
                    false,
                    always,
                    [](ActionContext& c) {
@@ -94,10 +97,10 @@ void addWindowActions(std::vector<Action>& table) {
                    {}});
   table.push_back({"window.menus",
                    "",
-                   "Open the menus",
+                   trLater("Open the menus"),
                    {key::f10, 0},
                    {},
-                   "Arrows walk them, Enter runs, Esc leaves; Alt opens them too",
+                   trLater("Arrows walk them, Enter runs, Esc leaves; Alt opens them too"),
                    false,
                    always,
                    [](ActionContext& c) { c.state.openMenus = true; },

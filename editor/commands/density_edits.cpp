@@ -5,15 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
-namespace {
-
-std::string labelOf(const std::set<CellId>& cells, const std::string& what) {
-  return cells.size() == 1 ? fmt::format("{} in a cell", what)
-                           : fmt::format("{} in {} cells", what, cells.size());
-}
-
-}  // namespace
 
 void giveDensity(LayoutSpec& spec, const CellId& cell, double density) {
   spec.density.erase(cell);
@@ -31,14 +25,20 @@ double densityAfter(double density, int steps) {
 std::string densityText(double density) { return fmt::format("{:.3g}", density); }
 
 Edit setDensity(const Project& project, const std::set<CellId>& cells, double density) {
-  Edit edit{project, labelOf(cells, density == 1 ? std::string("Usual sampling")
-                                                 : densityText(density) + " times the samples per degree")};
+  Edit edit{project, density == 1 ? trfMany("Usual sampling in {} cell", "Usual sampling in {} cells",
+                                            cells.size(), cells.size())
+                                  : trfMany("{} times the samples per degree in {} cell",
+                                            "{} times the samples per degree in {} cells", cells.size(),
+                                            densityText(density), cells.size())};
   for (const CellId& cell : cells) giveDensity(edit.project.layout(), cell, density);
   return edit;
 }
 
 Edit stepDensity(const Project& project, const std::set<CellId>& cells, int steps) {
-  Edit edit{project, labelOf(cells, steps > 0 ? "More samples" : "Fewer samples")};
+  const std::size_t count = cells.size();
+  Edit edit{project, steps > 0
+                         ? trfMany("More samples in {} cell", "More samples in {} cells", count, count)
+                         : trfMany("Fewer samples in {} cell", "Fewer samples in {} cells", count, count)};
   for (const CellId& cell : cells)
     giveDensity(edit.project.layout(), cell, densityAfter(densityOf(project.layout(), cell), steps));
   return edit;

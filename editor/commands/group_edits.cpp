@@ -9,6 +9,7 @@
 #include "editor/commands/layout_edits.h"
 #include "engine/base/contract.h"
 #include "engine/layout/placement.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -18,8 +19,6 @@ Lattice latticeOf(const LayoutSpec& spec) {
   require(lattice.has_value(), "a project's configuration has a lattice");
   return *std::move(lattice);
 }
-
-std::string countOf(std::size_t cells) { return cells == 1 ? "cell" : fmt::format("{} cells", cells); }
 
 }  // namespace
 
@@ -162,7 +161,7 @@ struct GroupEditing {
 
 GroupEdit moveCells(const Project& project, const std::set<CellId>& cells, const LatticeStep& step) {
   const CellGroup group(project.layout(), cells);
-  GroupEdit result{{project, "Move " + countOf(cells.size())}, cells};
+  GroupEdit result{{project, trfMany("Move cell", "Move {} cells", cells.size(), cells.size())}, cells};
   if (step == LatticeStep{} || group.empty()) return result;
   for (const CellGroup::Landing& landing : group.landings(step, true))
     result.skipped += landing.blocked ? 1 : 0;
@@ -173,8 +172,8 @@ GroupEdit moveCells(const Project& project, const std::set<CellId>& cells, const
 GroupEdit copyCells(const Project& project, const std::set<CellId>& cells,
                     const std::vector<LatticeStep>& steps) {
   const CellGroup group(project.layout(), cells);
-  GroupEdit result{{project, "Copy " + countOf(cells.size())}, {}};
-  if (steps.size() > 1) result.edit.label += fmt::format(" {} times", steps.size());
+  GroupEdit result{{project, trfMany("Copy cell", "Copy {} cells", cells.size(), cells.size())}, {}};
+  if (steps.size() > 1) result.edit.label = trf("{} {} times", result.edit.label, steps.size());
   std::set<CellId> placed;
   for (const LatticeStep& step : steps)
     result.skipped += GroupEditing::copyInto(group, result.edit.project.layout(), step, placed);

@@ -6,6 +6,7 @@
 
 #include "editor/commands/stored_angle.h"
 #include "engine/geometry/conventions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -58,31 +59,31 @@ Edit edited(const Project& project, std::string label, Change change) {
 }  // namespace
 
 Edit addCell(const Project& project, const CellId& cell) {
-  return edited(project, "Add cell " + nameOf(cell), [&](LayoutSpec& spec) { placeCell(spec, cell); });
+  return edited(project, trf("Add cell {}", nameOf(cell)), [&](LayoutSpec& spec) { placeCell(spec, cell); });
 }
 
 Edit removeCells(const Project& project, const std::set<CellId>& cells) {
-  const std::string label = cells.size() == 1 ? "Remove cell " + nameOf(*cells.begin())
-                                              : fmt::format("Remove {} cells", cells.size());
+  const std::string label = cells.size() == 1 ? trf("Remove cell {}", nameOf(*cells.begin()))
+                                              : trf("Remove {} cells", cells.size());
   return edited(project, label, [&](LayoutSpec& spec) {
     for (const CellId& cell : cells) takeCell(spec, cell);
   });
 }
 
 Edit splitCells(const Project& project, const std::set<CellId>& cells) {
-  return edited(project,
-                cells.size() == 1 ? "Split cell " + nameOf(*cells.begin())
-                                  : fmt::format("Split {} cells", cells.size()),
-                [&](LayoutSpec& spec) {
-                  for (const CellId& cell : cells)
-                    if (canSplitCell(spec, cell)) spec.split.insert(cell);
-                });
+  return edited(
+      project,
+      cells.size() == 1 ? trf("Split cell {}", nameOf(*cells.begin())) : trf("Split {} cells", cells.size()),
+      [&](LayoutSpec& spec) {
+        for (const CellId& cell : cells)
+          if (canSplitCell(spec, cell)) spec.split.insert(cell);
+      });
 }
 
 Edit joinCells(const Project& project, const std::set<CellId>& cells) {
   return edited(project,
-                cells.size() == 1 ? "Join the parts around " + nameOf(*cells.begin())
-                                  : fmt::format("Join the parts around {} cells", cells.size()),
+                cells.size() == 1 ? trf("Join the parts around {}", nameOf(*cells.begin()))
+                                  : trf("Join the parts around {} cells", cells.size()),
                 [&](LayoutSpec& spec) {
                   if (!canSplit(spec.configuration)) return;  // cells of another configuration
                   for (const CellId& cell : cells)
@@ -96,13 +97,12 @@ bool canSplitCell(const LayoutSpec& spec, const CellId& cell) {
 }
 
 Edit addFreeApv(const Project& project, const Apv& apv) {
-  return edited(project, apv.offset == glm::dvec2(0) ? "Add panorama" : "Add acentric panorama",
+  return edited(project, apv.offset == glm::dvec2(0) ? tr("Add panorama") : tr("Add acentric panorama"),
                 [&](LayoutSpec& spec) { spec.freeApvs[nextFreeNumber(spec)] = apv; });
 }
 
 Edit setFreeApv(const Project& project, int number, const Apv& apv) {
-  return edited(project, fmt::format("Panorama {}", number),
-                [&](LayoutSpec& spec) { spec.freeApvs[number] = apv; });
+  return edited(project, trf("Panorama {}", number), [&](LayoutSpec& spec) { spec.freeApvs[number] = apv; });
 }
 
 int nextFreeNumber(const LayoutSpec& spec) {
@@ -110,26 +110,25 @@ int nextFreeNumber(const LayoutSpec& spec) {
 }
 
 Edit setConfiguration(const Project& project, Configuration configuration) {
-  return edited(project, fmt::format("Configuration {}", acentric::nameOf(configuration)),
-                [&](LayoutSpec& spec) {
-                  if (spec.configuration == configuration) return;
-                  spec.configuration = configuration;
-                  spec.forgetCells();
-                });
+  return edited(project, trf("Configuration {}", acentric::nameOf(configuration)), [&](LayoutSpec& spec) {
+    if (spec.configuration == configuration) return;
+    spec.configuration = configuration;
+    spec.forgetCells();
+  });
 }
 
 Edit setCellSize(const Project& project, double metres) {
-  return edited(project, fmt::format("Cell size {:.2f} m", metres),
+  return edited(project, trf("Cell size {:.2f} m", metres),
                 [&](LayoutSpec& spec) { spec.cellSize = metres; });
 }
 
 Edit setLatticeOrigin(const Project& project, const glm::dvec2& origin) {
-  return edited(project, fmt::format("Lattice origin {:.2f}, {:.2f} m", origin.x, origin.y),
+  return edited(project, trf("Lattice origin {:.2f}, {:.2f} m", origin.x, origin.y),
                 [&](LayoutSpec& spec) { spec.latticeOrigin = origin; });
 }
 
 Edit setRotation(const Project& project, double radiansValue) {
-  return edited(project, fmt::format("Lattice rotation {:.1f}°", degrees(radiansValue)),
+  return edited(project, trf("Lattice rotation {:.1f}°", degrees(radiansValue)),
                 [&](LayoutSpec& spec) { spec.rotationRadians = storedAngle(radiansValue); });
 }
 
@@ -148,22 +147,22 @@ LatticePlace latticePlaceOf(const LayoutSpec& spec) {
 }
 
 Edit setOutline(const Project& project, Outline outline) {
-  const char* label = outline.empty() ? "Clear outline" : "Change outline";
+  const char* label = outline.empty() ? tr("Clear outline") : tr("Change outline");
   return edited(project, label, [&](LayoutSpec& spec) { spec.outline = std::move(outline); });
 }
 
 Edit setEyeHeight(const Project& project, double metres) {
-  return edited(project, fmt::format("Eye height {:.2f} m", metres),
+  return edited(project, trf("Eye height {:.2f} m", metres),
                 [&](LayoutSpec& spec) { spec.eyeHeight = metres; });
 }
 
 Edit setFloorHeight(const Project& project, double metres) {
-  return edited(project, fmt::format("Floor height {:.2f} m", metres),
+  return edited(project, trf("Floor height {:.2f} m", metres),
                 [&](LayoutSpec& spec) { spec.floorHeight = metres; });
 }
 
 Edit setNearBand(const Project& project, double metres) {
-  return edited(project, fmt::format("Near band {:.2f} m", metres),
+  return edited(project, trf("Near band {:.2f} m", metres),
                 [&](LayoutSpec& spec) { spec.nearBand = metres; });
 }
 

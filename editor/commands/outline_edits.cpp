@@ -8,6 +8,7 @@
 #include "engine/geometry/conventions.h"
 #include "engine/geometry/predicates/orientation.h"
 #include "engine/inspect/simplify_outline.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -37,8 +38,7 @@ bool onSide(const Side& side, const glm::dvec2& point) {
 }
 
 std::string nameOf(const Side& side) {
-  return fmt::format("side {}{}", side.number + 1,
-                     side.loop == 0 ? "" : fmt::format(" of loop {}", side.loop + 1));
+  return trf("side {}{}", side.number + 1, side.loop == 0 ? "" : trf(" of loop {}", side.loop + 1));
 }
 
 std::optional<OutlineFault> faultOf(const Side& a, const Side& b) {
@@ -47,12 +47,12 @@ std::optional<OutlineFault> faultOf(const Side& a, const Side& b) {
   const int baFrom = orientation(b.from, b.to, a.from), baTo = orientation(b.from, b.to, a.to);
   if (abFrom * abTo < 0 && baFrom * baTo < 0) {
     const double t = cross(b.from - a.from, across) / cross(along, across);
-    return OutlineFault{a.from + t * along, fmt::format("{} crosses {}", nameOf(a), nameOf(b))};
+    return OutlineFault{a.from + t * along, trf("{} crosses {}", nameOf(a), nameOf(b))};
   }
   const bool neighbours = adjoin(a, b);
   for (const auto& [side, point] : {std::pair(&a, b.from), {&a, b.to}, {&b, a.from}, {&b, a.to}}) {
     if (neighbours && (point == side->from || point == side->to)) continue;
-    if (onSide(*side, point)) return OutlineFault{point, fmt::format("{} touches {}", nameOf(a), nameOf(b))};
+    if (onSide(*side, point)) return OutlineFault{point, trf("{} touches {}", nameOf(a), nameOf(b))};
   }
   return std::nullopt;
 }
@@ -76,7 +76,7 @@ double turnOf(const std::vector<glm::dvec2>& loop) {
 
 Edit simplifyOutline(const Project& project, double metres) {
   Edit edit = setOutline(project, acentric::simplifyOutline(project.layout().outline, metres));
-  edit.label = "Simplify outline";
+  edit.label = tr("Simplify outline");
   return edit;
 }
 
@@ -90,7 +90,7 @@ std::vector<OutlineFault> outlineFaults(const Outline& outline, std::size_t most
   std::vector<OutlineFault> faults;
   for (std::size_t l = 0; l < outline.loops.size() && faults.size() < most; ++l)
     if (flat(outline.loops[l]))
-      faults.push_back({outline.loops[l].front(), fmt::format("loop {} has no area", l + 1)});
+      faults.push_back({outline.loops[l].front(), trf("loop {} has no area", l + 1)});
   const std::vector<Side> sides = sidesOf(outline);
   for (std::size_t a = 0; a < sides.size(); ++a) {
     const double end = std::max(sides[a].from.x, sides[a].to.x);

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "engine/pipeline/pipeline.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
 Edit showStorey(const Project& project, int storey) {
-  Edit edit{project, "Go to " + project.storeys[std::size_t(storey)].name};
+  Edit edit{project, trf("Go to {}", project.storeys[std::size_t(storey)].name)};
   edit.project.storey = storey;
   return edit;
 }
@@ -25,13 +26,13 @@ std::optional<int> storeyBeside(const Project& project, int steps) {
 }
 
 Edit renameStorey(const Project& project, std::string name) {
-  Edit edit{project, "Rename " + project.current().name + " to " + name};
+  Edit edit{project, trf("Rename {} to {}", project.current().name, name)};
   edit.project.current().name = std::move(name);
   return edit;
 }
 
 Edit removeStorey(const Project& project) {
-  Edit edit{project, "Remove " + project.current().name};
+  Edit edit{project, trf("Remove {}", project.current().name)};
   acentric::removeStorey(edit.project, project.storey);
   return edit;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "editor/commands/stored_angle.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -36,21 +37,22 @@ CameraPath stored(CameraPath path) {
 
 template <class Place>
 Edit renamed(const Project& project, std::vector<Place> Project::*list, std::size_t index, std::string name) {
-  Edit edit{project, "Rename " + (project.*list)[index].name + " to " + name};
+  Edit edit{project, trf("Rename {} to {}", (project.*list)[index].name, name)};
   (edit.project.*list)[index].name = std::move(name);
   return edit;
 }
 
 template <class Place>
 Edit removed(const Project& project, std::vector<Place> Project::*list, std::size_t index) {
-  Edit edit{project, "Remove " + (project.*list)[index].name};
+  Edit edit{project, trf("Remove {}", (project.*list)[index].name)};
   (edit.project.*list).erase((edit.project.*list).begin() + std::ptrdiff_t(index));
   return edit;
 }
 
 template <class Place>
 Edit moved(const Project& project, std::vector<Place> Project::*list, std::size_t index, int steps) {
-  Edit edit{project, fmt::format("Move {} {}", (project.*list)[index].name, steps < 0 ? "up" : "down")};
+  Edit edit{project, steps < 0 ? trf("Move {} up", (project.*list)[index].name)
+                               : trf("Move {} down", (project.*list)[index].name)};
   auto& places = edit.project.*list;
   const auto to = std::clamp<std::ptrdiff_t>(std::ptrdiff_t(index) + steps, 0, std::ssize(places) - 1);
   Place place = std::move(places[index]);
@@ -63,9 +65,9 @@ Edit moved(const Project& project, std::vector<Place> Project::*list, std::size_
 
 Edit addBookmark(const Project& project, const PathPose& here) {
   Bookmark bookmark;
-  bookmark.name = freeName(project.bookmarks, "place");
+  bookmark.name = freeName(project.bookmarks, trIn("name of a new bookmark", "place"));
   view(bookmark, project, here);
-  Edit edit{project, "Bookmark " + bookmark.name};
+  Edit edit{project, trf("Bookmark {}", bookmark.name)};
   edit.project.bookmarks.push_back(std::move(bookmark));
   return edit;
 }
@@ -75,7 +77,7 @@ Edit renameBookmark(const Project& project, std::size_t bookmark, std::string na
 }
 
 Edit updateBookmark(const Project& project, std::size_t bookmark, const PathPose& here) {
-  Edit edit{project, "Move " + project.bookmarks[bookmark].name + " here"};
+  Edit edit{project, trf("Move {} here", project.bookmarks[bookmark].name)};
   view(edit.project.bookmarks[bookmark], project, here);
   return edit;
 }
@@ -90,15 +92,15 @@ Edit moveBookmark(const Project& project, std::size_t bookmark, int steps) {
 
 Edit goToBookmark(const Project& project, std::size_t bookmark) {
   const Bookmark& there = project.bookmarks[bookmark];
-  Edit edit{project, "Go to " + there.name};
+  Edit edit{project, trf("Go to {}", there.name)};
   edit.project.storey = there.storey;
   edit.project.fovDegrees = there.fovDegrees;
   return edit;
 }
 
 Edit addPath(const Project& project, const CameraPath& path, int storey) {
-  WalkPath added{freeName(project.paths, "walk"), storey, stored(path)};
-  Edit edit{project, "Keep " + added.name};
+  WalkPath added{freeName(project.paths, trIn("name of a new path", "walk")), storey, stored(path)};
+  Edit edit{project, trf("Keep {}", added.name)};
   edit.project.paths.push_back(std::move(added));
   return edit;
 }
@@ -114,7 +116,7 @@ Edit movePath(const Project& project, std::size_t path, int steps) {
 }
 
 Edit setPath(const Project& project, std::size_t path, CameraPath changed) {
-  Edit edit{project, "Change " + project.paths[path].name};
+  Edit edit{project, trf("Change {}", project.paths[path].name)};
   edit.project.paths[path].path = stored(std::move(changed));
   return edit;
 }

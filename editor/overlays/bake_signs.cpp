@@ -10,6 +10,7 @@
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
 #include "ui/theme.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -77,7 +78,7 @@ void drawBakeLegend(ImDrawList& list, const ui::CanvasView& view, std::span<cons
                     ImFont* font) {
   std::array<std::size_t, kBakeStates> counts{};
   for (const BakeState state : regions) ++counts[std::size_t(state)];
-  ScaleLegend legend{regions.empty() ? "No cells yet" : "Regions by bake state", "", "", {}};
+  ScaleLegend legend{regions.empty() ? tr("No cells yet") : tr("Regions by bake state"), "", "", {}};
   for (int s = 0; s < kBakeStates; ++s)
     if (counts[std::size_t(s)] > 0)
       legend.lines.push_back(

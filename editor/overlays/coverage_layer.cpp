@@ -9,6 +9,7 @@
 #include "editor/overlays/scale_legend.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -48,33 +49,31 @@ struct CountScale {
 std::string percent(double share) { return ui::formatPercent(share); }
 
 std::string textOf(const PointCoverage& point) {
-  const std::string seen = fmt::format("\nSeen from {} regions, missed by {} of them", point.seenFrom.size(),
-                                       point.missedFrom.size());
+  const std::string seen =
+      trf("\nSeen from {} regions, missed by {} of them", point.seenFrom.size(), point.missedFrom.size());
   if (point.surfaceClass == SurfaceClass::neverSampled)
-    return "Never sampled: a hole wherever it is seen" + seen;
-  if (point.surfaceClass == SurfaceClass::local) return "Only near: always drawn as geometry" + seen;
-  return fmt::format(
-      "Sampled at {} of what is needed: {:.0f} samples per metre, the nearest eye needs {:.0f}{}",
-      percent(rateOf(point)), point.samplesPerMetre, point.pixelsPerMetre, seen);
+    return tr("Never sampled: a hole wherever it is seen") + seen;
+  if (point.surfaceClass == SurfaceClass::local) return tr("Only near: always drawn as geometry") + seen;
+  return trf("Sampled at {} of what is needed: {:.0f} samples per metre, the nearest eye needs {:.0f}{}",
+             percent(rateOf(point)), point.samplesPerMetre, point.pixelsPerMetre, seen);
 }
 
 ScaleLegend surfaceLegend(const CoveragePicture& picture) {
   const CoverageSummary& all = picture.surfaces->all;
   const double never = all.share(SurfaceClass::neverSampled);
   ScaleLegend legend{
-      "Samples, share of what the nearest eye needs", percent(kLeastRate), percent(kMostRate), {}};
-  legend.lines.push_back({fmt::format("{} never sampled", percent(never)), palette::alarm});
+      tr("Samples, share of what the nearest eye needs"), percent(kLeastRate), percent(kMostRate), {}};
+  legend.lines.push_back({trf("{} never sampled", percent(never)), palette::alarm});
   legend.lines.push_back(
-      {fmt::format("median {}; under half {}, over double {}", percent(picture.medianRate),
-                   percent(all.share(SurfaceClass::under)), percent(all.share(SurfaceClass::over))),
+      {trf("median {}; under half {}, over double {}", percent(picture.medianRate),
+           percent(all.share(SurfaceClass::under)), percent(all.share(SurfaceClass::over))),
        palette::text});
   legend.lines.push_back(
-      {fmt::format("{} only near, drawn as geometry", percent(all.share(SurfaceClass::local))),
-       palette::plain});
+      {trf("{} only near, drawn as geometry", percent(all.share(SurfaceClass::local))), palette::plain});
   const std::string points =
-      fmt::format("{} points, from {} eyes", ui::formatCount(all.points), ui::formatCount(picture.eyes));
+      trf("{} points, from {} eyes", ui::formatCount(all.points), ui::formatCount(picture.eyes));
   legend.lines.push_back(
-      {picture.exact ? points + ": exact" : fmt::format("{}: {:.0f} %", points, 100 * picture.progress),
+      {picture.exact ? trf("{}: exact", points) : fmt::format("{}: {:.0f} %", points, 100 * picture.progress),
        palette::muted});
   return legend;
 }
@@ -83,21 +82,21 @@ ScaleLegend countLegend(const CoveragePicture& picture) {
   const CoverageShares& shares = picture.shares;
   const bool cell = picture.request.kind == CoverageKind::cell;
   const CountScale scale(picture);
-  ScaleLegend legend{cell ? "Cameras of the cell per point" : "Cameras per point",
+  ScaleLegend legend{cell ? tr("Cameras of the cell per point") : tr("Cameras per point"),
                      fmt::format("{}", scale.low),
                      fmt::format("{}", scale.high),
                      {}};
-  legend.lines.push_back({fmt::format("{} held by none", percent(shares.none)), palette::alarm});
-  legend.lines.push_back({fmt::format("{:.1f} on average; by one {}, by more {}", shares.mean,
-                                      percent(shares.once), percent(shares.more)),
+  legend.lines.push_back({trf("{} held by none", percent(shares.none)), palette::alarm});
+  legend.lines.push_back({trf("{:.1f} on average; by one {}, by more {}", shares.mean, percent(shares.once),
+                              percent(shares.more)),
                           palette::text});
   if (cell)
-    legend.lines.push_back({fmt::format("{} {} exactly once",
-                                        picture.covers == 1 ? "Its cover holds" : "Each of its covers holds",
-                                        percent(picture.coverHoldsOnce)),
-                            picture.coverHoldsOnce < 1 ? palette::danger : palette::good});
-  legend.lines.push_back({fmt::format("{} x {} points{}", picture.plan.grid.columns, picture.plan.grid.rows,
-                                      picture.exact ? ": exact" : ", finer ones follow"),
+    legend.lines.push_back(
+        {trfMany("Its cover holds {} exactly once", "Each of its covers holds {} exactly once",
+                 std::uint64_t(picture.covers), percent(picture.coverHoldsOnce)),
+         picture.coverHoldsOnce < 1 ? palette::danger : palette::good});
+  legend.lines.push_back({trf("{} x {} points{}", picture.plan.grid.columns, picture.plan.grid.rows,
+                              picture.exact ? tr(": exact") : tr(", finer ones follow")),
                           palette::muted});
   return legend;
 }
@@ -181,7 +180,10 @@ void CoverageLayer::drawLegend(ImDrawList& list, const ui::CanvasView& view, con
                            font);
   drawScaleLegend(
       list, view,
-      {kind == CoverageKind::cell ? "Point at a cell, or select one" : "Measuring coverage", {}, {}, {}},
+      {kind == CoverageKind::cell ? tr("Point at a cell, or select one") : tr("Measuring coverage"),
+       {},
+       {},
+       {}},
       font);
 }
 
@@ -195,9 +197,8 @@ std::string CoverageLayer::textAt(const ui::CanvasView& view, const CoveragePict
     if (cell.x < 0 || cell.y < 0 || cell.x >= grid.columns || cell.y >= grid.rows) return {};
     const std::uint16_t count = picture->plan.counts[grid.indexOf(int(cell.x), int(cell.y))];
     if (count == kNotCounted) return {};
-    return count == 0   ? "Held by no camera"
-           : count == 1 ? "Held by 1 camera"
-                        : fmt::format("Held by {} cameras", count);
+    return count == 0 ? tr("Held by no camera")
+                      : trfMany("Held by {} camera", "Held by {} cameras", count, count);
   }
   const double reach = (double(pointPixels(view)) + 3) / view.pixelsPerMetre();
   const PointCoverage* best = nullptr;

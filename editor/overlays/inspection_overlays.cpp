@@ -7,6 +7,7 @@
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
 #include "ui/theme.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -53,33 +54,36 @@ void drawFinding(ImDrawList& list, const ImVec2& at, Severity severity, float si
 void drawTriangleLegend(ImDrawList& list, const ui::CanvasView& view, const Inspection& inspection,
                         std::size_t budget, ImFont* font) {
   const std::size_t most = std::max<std::size_t>(inspection.budgets.worst(), 1);
-  ScaleLegend legend{"Triangles of local geometry", "0", ui::formatCount(most), {}};
+  ScaleLegend legend{tr("Triangles of local geometry"), "0", ui::formatCount(most), {}};
   if (budget > 0) {
     const std::size_t over = inspection.budgets.over(budget).size();
-    legend.lines.push_back({fmt::format("{} over {}", over, ui::formatCount(budget)), palette::alarm});
+    legend.lines.push_back({trf("{} over {}", over, ui::formatCount(budget)), palette::alarm});
   }
   drawScaleLegend(list, view, legend, font);
 }
 
 void drawBytesLegend(ImDrawList& list, const ui::CanvasView& view, std::uint64_t most, std::uint64_t all,
                      ImFont* font) {
-  if (all == 0) return drawScaleLegend(list, view, {"Bytes on disk: nothing is baked yet", "", "", {}}, font);
-  ScaleLegend legend{"Bytes on disk of the captures that a region shows", "0", ui::formatBytes(most), {}};
-  legend.lines.push_back({ui::formatBytes(all) + " in all; captures serve several regions", palette::muted});
+  if (all == 0)
+    return drawScaleLegend(list, view, {tr("Bytes on disk: nothing is baked yet"), "", "", {}}, font);
+  ScaleLegend legend{tr("Bytes on disk of the captures that a region shows"), "0", ui::formatBytes(most), {}};
+  legend.lines.push_back(
+      {trf("{} in all; captures serve several regions", ui::formatBytes(all)), palette::muted});
   drawScaleLegend(list, view, legend, font);
 }
 
 void drawDensityLegend(ImDrawList& list, const ui::CanvasView& view, double samplesPerDegree, ImFont* font) {
   const auto perDegree = [&](double density) { return fmt::format("{:.3g}", density * samplesPerDegree); };
-  ScaleLegend legend{"Samples per degree", perDegree(kLeastRegionDensity), perDegree(kMostRegionDensity), {}};
-  legend.lines.push_back({fmt::format("cells without colour: {}", perDegree(1)), palette::muted});
-  legend.lines.push_back({"captures of several cells: the most of them", palette::muted});
+  ScaleLegend legend{
+      tr("Samples per degree"), perDegree(kLeastRegionDensity), perDegree(kMostRegionDensity), {}};
+  legend.lines.push_back({trf("cells without colour: {}", perDegree(1)), palette::muted});
+  legend.lines.push_back({tr("captures of several cells: the most of them"), palette::muted});
   drawScaleLegend(list, view, legend, font);
 }
 
 void drawChecksLegend(ImDrawList& list, const ui::CanvasView& view, const PlacementReport& report,
                       ImFont* font) {
-  ScaleLegend legend{"Where cameras stand", "", "", {}};
+  ScaleLegend legend{tr("Where cameras stand"), "", "", {}};
   const auto add = [&](Severity severity, const char* what) {
     const int count = report.count(severity);
     if (count == 0) return;
@@ -87,11 +91,10 @@ void drawChecksLegend(ImDrawList& list, const ui::CanvasView& view, const Placem
         {fmt::format("{}  {}", what, count), palette::muted,
          [severity](ImDrawList& on, const ImVec2& at) { drawFinding(on, at, severity, 0.9F); }});
   };
-  add(Severity::error, "badly: inside a solid, or too near");
-  add(Severity::warning, "deserves a look: floor, nearness");
-  add(Severity::note, "note");
-  if (legend.lines.empty())
-    legend.lines.push_back({fmt::format("all {} stand free", report.centres), palette::good});
+  add(Severity::error, tr("badly: inside a solid, or too near"));
+  add(Severity::warning, tr("deserves a look: floor, nearness"));
+  add(Severity::note, tr("note"));
+  if (legend.lines.empty()) legend.lines.push_back({trf("all {} stand free", report.centres), palette::good});
   drawScaleLegend(list, view, legend, font);
 }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "editor/session/engine_texts.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -17,22 +19,22 @@ constexpr float kWidth = 356, kMargin = 12;
 std::string verdictOf(const PointCoverage& coverage) {
   switch (coverage.surfaceClass) {
     case SurfaceClass::unseen:
-      return "No eye in the walkable area sees it.";
+      return tr("No eye in the walkable area sees it.");
     case SurfaceClass::neverSampled:
-      return "No capture holds it: a hole for every eye that sees it.";
+      return tr("No capture holds it: a hole for every eye that sees it.");
     case SurfaceClass::local:
-      return "Near geometry for every eye that sees it: no capture is needed.";
+      return tr("Near geometry for every eye that sees it: no capture is needed.");
     case SurfaceClass::under:
     case SurfaceClass::fine:
     case SurfaceClass::over:
       break;
   }
   const double ratio = coverage.samplesPerMetre / coverage.pixelsPerMetre;
-  const char* word = coverage.surfaceClass == SurfaceClass::under  ? "too few"
-                     : coverage.surfaceClass == SurfaceClass::over ? "more than enough"
-                                                                   : "fine";
-  return fmt::format("{:.2f} samples per pixel at the nearest eye, {:.1f} m away: {}.", ratio,
-                     coverage.nearestDistance, word);
+  const char* word = coverage.surfaceClass == SurfaceClass::under  ? tr("too few")
+                     : coverage.surfaceClass == SurfaceClass::over ? tr("more than enough")
+                                                                   : tr("fine");
+  return trf("{:.2f} samples per pixel at the nearest eye, {:.1f} m away: {}.", ratio,
+             coverage.nearestDistance, word);
 }
 
 void headline(PanelContext& context, const ScenePick& pick) {
@@ -40,17 +42,17 @@ void headline(PanelContext& context, const ScenePick& pick) {
   const Mesh& mesh = scene.meshOf(pick.point.mesh);
   const glm::dvec3& at = pick.point.position;
   ImGui::PushFont(context.window.fonts().bold);
-  ImGui::TextUnformatted(mesh.name.empty() ? "Surface" : mesh.name.c_str());
+  ImGui::TextUnformatted(mesh.name.empty() ? tr("Surface") : mesh.name.c_str());
   ImGui::PopFont();
   ImGui::SameLine();
   ui::mutedText(fmt::format("x {:.2f}  y {:.2f}  z {:.2f} m", at.x, at.y, at.z));
   ui::wrappedText(ui::palette::text, verdictOf(pick.sampling.coverage));
   const PointCoverage& coverage = pick.sampling.coverage;
   if (!coverage.seenFrom.empty()) {
-    std::string text = fmt::format("Seen from {} cells", coverage.seenFrom.size());
-    if (!coverage.missedFrom.empty()) text += fmt::format(", missed by {}", coverage.missedFrom.size());
+    std::string text = trf("Seen from {} cells", coverage.seenFrom.size());
+    if (!coverage.missedFrom.empty()) text += trf(", missed by {}", coverage.missedFrom.size());
     ImGui::PushFont(context.window.fonts().small);
-    ui::mutedText(text + fmt::format("; {} of {} cameras hold it", pick.held, pick.sampling.cameras.size()));
+    ui::mutedText(text + trf("; {} of {} cameras hold it", pick.held, pick.sampling.cameras.size()));
     ImGui::PopFont();
   }
 }
@@ -67,7 +69,7 @@ void row(PanelContext& context, const ScenePick& pick, std::size_t n) {
   const Layout& layout = *pick.of->layout;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  const std::string name = sourceName(layout, sourceOfCamera(camera.camera));
+  const std::string name = engineText(sourceName(layout, sourceOfCamera(camera.camera)));
   const ui::Colour ink = !camera.held    ? ui::palette::faint
                          : camera.hidden ? ui::palette::warning
                                          : ui::palette::text;
@@ -76,14 +78,14 @@ void row(PanelContext& context, const ScenePick& pick, std::size_t n) {
     context.state().scene3d.lookThrough = placeOf(layout, camera.camera);
   context.log.item(fmt::format("pick.row.{}", n));
   ImGui::PopStyleColor();
-  ui::tooltip("Look through this camera");
+  ui::tooltip(tr("Look through this camera"));
   ImGui::PushStyleColor(ImGuiCol_Text, ink.vec());
   number(fmt::format("{:.2f}", camera.distance));
   number(fmt::format("{:.0f}°", degrees(camera.angle)));
   number(fmt::format("{:.0f}", camera.samplesPerMetre));
   number(fmt::format("{:.1f}", camera.samplesPerDegree));
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(!camera.held ? "no" : camera.hidden ? "behind" : "yes");
+  ImGui::TextUnformatted(!camera.held ? tr("no") : camera.hidden ? tr("behind") : tr("yes"));
   ImGui::PopStyleColor();
 }
 
@@ -92,17 +94,17 @@ void table(PanelContext& context, const ScenePick& pick) {
   if (rows == 0) return;
   ImGui::PushFont(context.window.fonts().small);
   if (ImGui::BeginTable("##cameras", 6, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
-    ImGui::TableSetupColumn("camera", ImGuiTableColumnFlags_WidthStretch);
-    for (const char* name : {"m", "angle", "/m", "/°", "held"}) ImGui::TableSetupColumn(name);
+    ImGui::TableSetupColumn(tr("camera"), ImGuiTableColumnFlags_WidthStretch);
+    for (const char* name : {"m", tr("angle"), tr("/m"), "/°", tr("held")}) ImGui::TableSetupColumn(name);
     ImGui::PushStyleColor(ImGuiCol_Text, ui::palette::muted.vec());
     ImGui::TableHeadersRow();
     ImGui::PopStyleColor();
     for (std::size_t n = 0; n < rows; ++n) row(context, pick, n);
     ImGui::EndTable();
   }
-  std::string text = "samples per metre, per degree at the nearest eye";
+  std::string text = tr("samples per metre, per degree at the nearest eye");
   if (pick.sampling.cameras.size() > rows)
-    text = fmt::format("{} more   ·   ", pick.sampling.cameras.size() - rows) + text;
+    text = trf("{} more   ·   ", pick.sampling.cameras.size() - rows) + text;
   ui::mutedText(text);
   ImGui::PopFont();
 }
@@ -126,7 +128,7 @@ std::pair<ImVec2, ImVec2> drawPickTable(PanelContext& context, const ImVec2& are
                     ImGuiWindowFlags_AlwaysUseWindowPadding);
   ImGui::PopStyleVar(2);
   if (pick == nullptr) {
-    ui::mutedText("Asking the cameras…");
+    ui::mutedText(tr("Asking the cameras…"));
   } else {
     headline(context, *pick);
     table(context, *pick);

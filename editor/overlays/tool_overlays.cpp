@@ -7,6 +7,7 @@
 
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -41,9 +42,11 @@ void drawMarquee(ImDrawList& list, const ui::CanvasView& view, const MarqueeInte
   const ImVec2 low = imVec(glm::min(a, b)), high = imVec(glm::max(a, b));
   list.AddRectFilled(low, high, palette::accent.withOpacity(0.10F).packed());
   list.AddRect(low, high, palette::accent.packed(), 0, 0, 1.4F);
-  const char* what = box.how == Combine::toggle ? "toggle" : "add";
   drawBeside(list, view, font, ui::fromIm(high),
-             fmt::format("{} {} cell{}", what, ui::formatCount(cells), cells == 1 ? "" : "s"), palette::text);
+             box.how == Combine::toggle
+                 ? trfMany("toggle {} cell", "toggle {} cells", cells, ui::formatCount(cells))
+                 : trfMany("add {} cell", "add {} cells", cells, ui::formatCount(cells)),
+             palette::text);
 }
 
 void drawLatticeHandles(ImDrawList& list, const ui::CanvasView& view, const LatticeHandles& handles,
@@ -75,9 +78,9 @@ void drawLatticeHandles(ImDrawList& list, const ui::CanvasView& view, const Latt
   list.AddLine({centre.x, centre.y + 9}, {centre.x, centre.y + arm}, cross, 2);
   if (tool.dragging())
     return drawBeside(list, view, font, view.screenFromWorld(tool.hand()), tool.text(), palette::text);
-  const char* what = under == LatticeGrip::origin ? "Moves the lattice"
-                     : under == LatticeGrip::turn ? "Turns the lattice"
-                     : under == LatticeGrip::size ? "Size of the cells"
+  const char* what = under == LatticeGrip::origin ? tr("Moves the lattice")
+                     : under == LatticeGrip::turn ? tr("Turns the lattice")
+                     : under == LatticeGrip::size ? tr("Size of the cells")
                                                   : nullptr;
   if (what != nullptr) drawBeside(list, view, font, pointer, what, palette::text);
 }
@@ -132,7 +135,7 @@ void drawOutlineFaults(ImDrawList& list, const ui::CanvasView& view, std::span<c
 void drawLoopAreas(ImDrawList& list, const ui::CanvasView& view, std::span<const LoopArea> areas,
                    ImFont* font) {
   for (const LoopArea& area : areas) {
-    const std::string text = fmt::format("{}{:.1f} m²", area.hole ? "hole, " : "", area.squareMetres);
+    const std::string text = fmt::format("{}{:.1f} m²", area.hole ? tr("hole, ") : "", area.squareMetres);
     const ImVec2 size = sizeOf(font, text);
     const glm::dvec2 at = view.screenFromWorld(area.place);
     if (!view.contains(at)) continue;

@@ -11,6 +11,7 @@
 #include "engine/image/image.h"
 #include "ui/image_view.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -19,10 +20,12 @@ namespace palette = ui::palette;
 
 constexpr float kButtonGap = 4, kApart = 14, kCard = 290;
 constexpr std::array<std::pair<const char*, const char*>, 3> kPresets{
-    {{"preset.fast", "Fast"}, {"preset.balanced", "Balanced"}, {"preset.accurate", "Accurate"}}};
+    {{"preset.fast", trLater("Fast")},
+     {"preset.balanced", trLater("Balanced")},
+     {"preset.accurate", trLater("Accurate")}}};
 
 std::string labelOf(const MeasureInfo& info) {
-  return info.unit[0] == '\0' ? info.label : fmt::format("{}, {}", info.label, info.unit);
+  return info.unit[0] == '\0' ? tr(info.label) : fmt::format("{}, {}", tr(info.label), info.unit);
 }
 
 std::string textOf(const MeasureInfo& info, double value) {
@@ -79,51 +82,50 @@ void drawGoal(PanelContext& context, const char* id, const char* label, const ch
 
 void drawGoals(PanelContext& context) {
   Goals& goals = context.state().accuracy.goalsRequest.goals;
-  drawGoal(context, "goals.bytes", "at most", "%.0f MB", 1e6, 60, goals.mostBytes);
+  drawGoal(context, "goals.bytes", tr("at most"), "%.0f MB", 1e6, 60, goals.mostBytes);
   ImGui::SameLine(0, ui::scaled(kApart));
-  drawGoal(context, "goals.frame", "at most", "%.1f ms", 1, 16, goals.mostFrameMs);
-  ui::tooltip(fmt::format("Of the median frame of {} by {} pixels",
-                          context.state().accuracy.goalsRequest.width,
-                          context.state().accuracy.goalsRequest.height));
+  drawGoal(context, "goals.frame", tr("at most"), "%.1f ms", 1, 16, goals.mostFrameMs);
+  ui::tooltip(trf("Of the median frame of {} by {} pixels", context.state().accuracy.goalsRequest.width,
+                  context.state().accuracy.goalsRequest.height));
   ImGui::SameLine(0, ui::scaled(kApart));
-  drawGoal(context, "goals.psnr", "at least", "%.1f dB", 1, 35, goals.leastPsnr);
+  drawGoal(context, "goals.psnr", tr("at least"), "%.1f dB", 1, 35, goals.leastPsnr);
 }
 
 void drawToolbar(PanelContext& context) {
   AccuracyState& state = context.state().accuracy;
   const SweepWatch& watch = watchOf(context);
-  for (const auto& [id, label, goals] :
-       {std::tuple("accuracy.all", "All settings", false), std::tuple("accuracy.goals", "Goals", true)}) {
+  for (const auto& [id, label, goals] : {std::tuple("accuracy.all", tr("All settings"), false),
+                                         std::tuple("accuracy.goals", tr("Goals"), true)}) {
     if (ui::toggleButton(label, state.goals == goals)) state.goals = goals;
     context.log.item(id);
     ImGui::SameLine(0, ui::scaled(goals ? kApart : kButtonGap));
   }
   SweepRequest& request = state.goals ? state.goalsRequest : state.request;
   AccuracyAxes& axes = state.goals ? state.goalsAxes : state.axes;
-  const char* begin = state.goals ? "Find" : "Measure";
+  const char* begin = state.goals ? tr("Find") : tr("Measure");
   if (watch.running())
     actionButton(context, state.goals ? "goals.stop" : "sweep.stop", ButtonLook::plain, {},
-                 watch.stopping() ? "Stopping" : "Stop");
+                 watch.stopping() ? tr("Stopping") : tr("Stop"));
   else
     actionButton(context, state.goals ? "goals.start" : "sweep.start", ButtonLook::primary, {},
-                 watch.sweep() ? "Go on" : begin);
+                 watch.sweep() ? tr("Go on") : begin);
   if (!state.goals) {
     ImGui::SameLine(0, ui::scaled(kButtonGap));
-    actionButton(context, "sweep.again", ButtonLook::plain, {}, "Anew");
+    actionButton(context, "sweep.again", ButtonLook::plain, {}, tr("Anew"));
   }
   ImGui::SameLine(0, ui::scaled(kApart));
-  drawNumber(context, "sweep.minutes", "%d minutes",
-             "How long it may take. What does not fit is left for another time.", 1, 24 * 60,
+  drawNumber(context, "sweep.minutes", trPrintf("%d minutes"),
+             tr("How long it may take. What does not fit is left for another time."), 1, 24 * 60,
              request.minutes);
   ImGui::SameLine(0, ui::scaled(kButtonGap));
-  drawNumber(context, "sweep.frames", "%d frames",
-             "Of the walk, evenly chosen, that settings are compared in.", 1, 1000, request.frames);
+  drawNumber(context, "sweep.frames", trPrintf("%d frames"),
+             tr("Of the walk, evenly chosen, that settings are compared in."), 1, 1000, request.frames);
   ImGui::SameLine(0, ui::scaled(kApart));
   if (ImGui::GetContentRegionAvail().x < ui::scaled(310)) ImGui::NewLine();
   ImGui::AlignTextToFramePadding();
   chooseMeasure(context, "accuracy.error", true, axes.error);
   ImGui::SameLine(0, ui::scaled(6));
-  ui::mutedText("against");
+  ui::mutedText(tr("against"));
   ImGui::SameLine(0, ui::scaled(6));
   chooseMeasure(context, "accuracy.cost", false, axes.cost);
   if (state.goals) drawGoals(context);
@@ -135,20 +137,20 @@ void drawState(const SweepWatch& watch) {
   std::string text;
   if (sweep) {
     const auto measured = std::ranges::count_if(sweep->points, &SweepPoint::measured);
-    text = fmt::format(
-        "{} settings measured, {} left out; {} frames of {}×{} along {}, against {} ray{} a pixel; {}, {} "
-        "threads",
-        measured, std::ssize(sweep->points) - measured, sweep->frames, sweep->width, sweep->height,
-        sweep->path, sweep->truthSamples, sweep->truthSamples == 1 ? "" : "s", sweep->processor,
-        sweep->threads);
+    text =
+        trf("{} settings measured, {} left out; {} frames of {}×{} along {}, against {} rays a pixel; {}, {} "
+            "threads",
+            measured, std::ssize(sweep->points) - measured, sweep->frames, sweep->width, sweep->height,
+            sweep->path, sweep->truthSamples, sweep->processor, sweep->threads);
   }
-  if (watch.running()) text = (watch.stopping() ? "Ending. " : "Measuring in the background. ") + text;
+  if (watch.running())
+    text = fmt::format("{} {}", watch.stopping() ? tr("Ending.") : tr("Measuring in the background."), text);
   ui::wrappedText(palette::muted, text);
   if (!sweep) return;
   std::string leftOut;
   for (const SweepPoint& point : sweep->points)
     if (!point.measured()) leftOut += fmt::format("{}: {}\n", textOf(point.setting), point.skipped);
-  if (!leftOut.empty()) ui::tooltip("Left out:\n" + leftOut);
+  if (!leftOut.empty()) ui::tooltip(trf("Left out:\n{}", leftOut));
 }
 
 void drawEmpty(PanelContext& context) {
@@ -168,20 +170,23 @@ void drawEmpty(PanelContext& context) {
   const ui::Fonts& fonts = context.window.fonts();
   const bool running = watchOf(context).running(), goals = context.state().accuracy.goals;
   line(fonts.title, palette::text,
-       running ? "Measuring the project as it is"
-       : goals ? "What keeps to your budgets?"
-               : "What does accuracy cost here?");
-  line(fonts.regular, palette::muted,
-       running ? "The first mark appears when its captures are there and its frames are compared."
-       : goals
-           ? "Find tries layouts and settings, the most promising first: it bakes what a few frames need, "
-             "and compares them with ray-traced truth. The one that keeps to the budgets best is proposed."
-           : "Measure tries settings of the bake and of the walk one by one, then together: the same frames, "
-             "against ray-traced truth, in the background. Marks show error against time; three presets come "
-             "out of it.");
+       running ? tr("Measuring the project as it is")
+       : goals ? tr("What keeps to your budgets?")
+               : tr("What does accuracy cost here?"));
+  line(
+      fonts.regular, palette::muted,
+      running ? tr("The first mark appears when its captures are there and its frames are compared.")
+      : goals
+          ? tr("Find tries layouts and settings, the most promising first: it bakes what a few frames need, "
+               "and compares them with ray-traced truth. The one that keeps to the budgets best is proposed.")
+          : tr("Measure tries settings of the bake and of the walk one by one, then together: the same "
+               "frames, "
+               "against ray-traced truth, in the background. Marks show error against time; three presets "
+               "come "
+               "out of it."));
   if (!running && context.session().hasProject() &&
       (context.session().untitled() || context.session().dirty()))
-    line(fonts.regular, palette::warning, "Save the project first: it is measured as it is in its file.");
+    line(fonts.regular, palette::warning, tr("Save the project first: it is measured as it is in its file."));
 }
 
 /// In the unit that people see.
@@ -202,11 +207,20 @@ std::optional<double> goalOf(const Goals& goals, const MeasureInfo& info) {
 }
 
 void drawPresets(PanelContext& context) {
-  ui::mutedText("Presets");
+  ui::mutedText(tr("Presets"));
   for (const auto& [id, label] : kPresets) {
     ImGui::SameLine(0, ui::scaled(6));
-    actionButton(context, id, ButtonLook::plain, {}, label);
+    actionButton(context, id, ButtonLook::plain, {}, tr(label));
   }
+}
+
+std::string goalsText(const Goals& goals) {
+  std::string text;
+  const auto add = [&text](const std::string& goal) { text += (text.empty() ? "" : ", ") + goal; };
+  if (goals.mostBytes) add(trf("at most {:g} MB", *goals.mostBytes / 1e6));
+  if (goals.mostFrameMs) add(trf("at most {:g} ms", *goals.mostFrameMs));
+  if (goals.leastPsnr) add(trf("at least {:g} dB", *goals.leastPsnr));
+  return text;
 }
 
 /// What keeps the goals best, and whether it does.
@@ -215,11 +229,11 @@ void drawProposal(PanelContext& context, const Sweep& sweep) {
   const SweepPoint* best = proposalOf(sweep, *sweep.goals);
   if (best == nullptr) return;
   const bool kept = missOf(*sweep.goals, figuresOf(*best)) <= 0;
-  actionButton(context, "goals.take", kept ? ButtonLook::primary : ButtonLook::plain, {}, "Take");
+  actionButton(context, "goals.take", kept ? ButtonLook::primary : ButtonLook::plain, {}, tr("Take"));
   ImGui::SameLine(0, ui::scaled(6));
-  const std::string text =
-      fmt::format("{} {}: {}", textOf(*sweep.goals), kept ? "is kept by" : "is kept by nothing yet; nearest",
-                  textOf(best->setting));
+  const std::string goals = goalsText(*sweep.goals), setting = textOf(best->setting);
+  const std::string text = kept ? trf("{} is kept by: {}", goals, setting)
+                                : trf("{} is kept by nothing yet; nearest: {}", goals, setting);
   ui::wrappedText(kept ? palette::good : palette::warning, text);
 }
 
@@ -233,8 +247,9 @@ PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
   mark.y = mark.yLow = mark.yHigh = point[axes.error].median * infoOf(axes.error).shown;
   const auto name = [&mark](const std::string& word) { mark.name += (mark.name.empty() ? "" : ", ") + word; };
   for (const SweepPreset& preset : presets)
-    if (preset.setting == point.setting && state.goals == (preset.name == "proposal")) name(preset.name);
-  if (point.setting.empty()) mark.base = true, name("as it is");
+    if (preset.setting == point.setting && state.goals == (preset.name == "proposal"))
+      name(preset.name == "proposal" ? tr("proposal") : preset.name);
+  if (point.setting.empty()) mark.base = true, name(tr("as it is"));
   mark.selected = state.selected == point.setting;
   return mark;
 }
@@ -261,12 +276,13 @@ void AccuracyPanel::drawPlot(PanelContext& context, const Sweep& sweep, const Im
   for (const std::size_t i : paretoFront(objectives)) marks[i].front = true;  // of the two that are shown
   if (marks.empty()) {
     ImGui::SetCursorScreenPos(low);
-    return ui::mutedText("Nothing that was measured has both.");
+    return ui::mutedText(tr("Nothing that was measured has both."));
   }
   const Goals goals = state.goals ? sweep.goals.value_or(Goals{}) : Goals{};
   const PlotAxis across{labelOf(cost), true, goalOf(goals, cost)};
-  const PlotAxis up{labelOf(error) + (error.moreIsBetter ? "  (more is better)" : "  (less is better)"),
-                    false, goalOf(goals, error)};
+  const PlotAxis up{
+      labelOf(error) + (error.moreIsBetter ? tr("  (more is better)") : tr("  (less is better)")), false,
+      goalOf(goals, error)};
   const AccuracyPlot plot = drawAccuracyPlot(low, high, across, up, marks);
   if (context.log.on())
     for (std::size_t i = 0; i < plot.places.size(); ++i) {
@@ -301,18 +317,18 @@ void AccuracyPanel::drawPicture(PanelContext& context, const SweepPoint& point) 
     ui::drawImage(picture_.imguiId(),
                   ui::fitImage({at.x, at.y}, {width, height}, double(picture_.width()) / picture_.height()),
                   false);
-  if (ui::toggleButton("Difference", difference)) context.state().accuracy.difference = !difference;
+  if (ui::toggleButton(tr("Difference"), difference)) context.state().accuracy.difference = !difference;
   context.log.item("accuracy.difference");
-  ui::tooltip("From the truth, amplified, instead of the frame");
+  ui::tooltip(tr("From the truth, amplified, instead of the frame"));
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ui::mutedText(fmt::format("worst frame: {} of {}", point.worstFrame + 1, pictureOf_->frames));
+  ui::mutedText(trf("worst frame: {} of {}", point.worstFrame + 1, pictureOf_->frames));
 }
 
 void AccuracyPanel::drawPoint(PanelContext& context, const Sweep& sweep, const SweepPoint& point) {
   ImGui::PushFont(context.window.fonts().bold);
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(point.setting.empty() ? "The project as it was measured" : "Changed");
+  ImGui::TextUnformatted(point.setting.empty() ? tr("The project as it was measured") : tr("Changed"));
   ImGui::PopTextWrapPos();
   ImGui::PopFont();
   for (const KnobChoice& choice : point.setting) ui::keyValue(choice.knob.c_str(), choice.value, 170);
@@ -323,24 +339,24 @@ void AccuracyPanel::drawPoint(PanelContext& context, const Sweep& sweep, const S
     if (value.count == 0) continue;
     std::string text = textOf(info, value.median);
     if (value.max > value.min && !info.error)
-      text += fmt::format("  ({:.{}f} to {:.{}f})", value.min * info.shown, info.digits,
-                          value.max * info.shown, info.digits);
-    if (info.measure == Measure::bakeSeconds && point.bakeEstimated) text += "  foretold";
-    ui::keyValue(info.label, text, 100);
+      text += trf("  ({:.{}f} to {:.{}f})", value.min * info.shown, info.digits, value.max * info.shown,
+                  info.digits);
+    if (info.measure == Measure::bakeSeconds && point.bakeEstimated) text += tr("  foretold");
+    ui::keyValue(tr(info.label), text, 100);
     const Spread& before = base[info.measure];
     if (info.error)
-      ui::tooltip(fmt::format("Median of {}; worst {}", value.count,
-                              textOf(info, info.moreIsBetter ? value.min : value.max)));
+      ui::tooltip(trf("Median of {}; worst {}", value.count,
+                      textOf(info, info.moreIsBetter ? value.min : value.max)));
     if (!point.setting.empty() && before.count > 0 && before.median != 0 && !info.error) {
       ImGui::SameLine();
       ui::mutedText(fmt::format("×{:.2f}", value.median / before.median));
     }
   }
   const bool apply =
-      ui::button("Apply to the project", {ImGui::GetContentRegionAvail().x, 0}, !point.setting.empty());
+      ui::button(tr("Apply to the project"), {ImGui::GetContentRegionAvail().x, 0}, !point.setting.empty());
   context.log.item("accuracy.apply");
-  ui::tooltip("Sets the project so; undo takes it back. What bakes has to be baked again.");
-  if (apply) applySetting(context.actions, point.setting, "Use " + textOf(point.setting));
+  ui::tooltip(tr("Sets the project so; undo takes it back. What bakes has to be baked again."));
+  if (apply) applySetting(context.actions, point.setting, trf("Use {}", textOf(point.setting)));
 }
 
 void AccuracyPanel::draw(PanelContext& context) {

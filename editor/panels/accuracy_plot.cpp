@@ -9,6 +9,7 @@
 #include "engine/measure/svg_plot.h"
 #include "ui/colour.h"
 #include "ui/theme.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -69,7 +70,7 @@ void drawArrow(ImDrawList& list, const ImVec2& at, float x, float y, const ui::C
 
 void tellBeyond(const PlotMark& mark, const PlotAxis& across, const PlotAxis& up, bool beyondAcross,
                 bool beyondUp) {
-  std::string text = "Beyond the axes:";
+  std::string text = tr("Beyond the axes:");
   if (beyondAcross) text += fmt::format("\n{}: {:.4g}", across.label, mark.x);
   if (beyondUp) text += fmt::format("\n{}: {:.4g}", up.label, mark.y);
   ImGui::SetTooltip("%s", text.c_str());
@@ -179,7 +180,7 @@ AccuracyPlot drawAccuracyPlot(const ImVec2& low, const ImVec2& high, const PlotA
     list.AddText({x0, y0}, palette::text.packed(), mark.name.c_str());
   }
   if (beyond > 0) {
-    const std::string text = fmt::format("{} beyond the axes", beyond);
+    const std::string text = trf("{} beyond the axes", beyond);
     list.AddText({to.x - ImGui::CalcTextSize(text.c_str()).x, low.y}, palette::muted.packed(), text.c_str());
   }
   return out;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "editor/session/engine_texts.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -25,7 +27,7 @@ std::string errorsText(const Attribution& errors) {
   constexpr double kWorthTelling = 0.05;
   for (std::size_t s = 0; s < kErrorSources; ++s)
     if (const double share = errors.share(ErrorSource(s)); share >= kWorthTelling)
-      text += fmt::format("\n{:.0f} % {}", 100 * share, wordsFor(ErrorSource(s)));
+      text += fmt::format("\n{:.0f} % {}", 100 * share, tr(wordsFor(ErrorSource(s))));
   return text;
 }
 
@@ -38,29 +40,28 @@ void swatch(const Rgba8& colour) {
 }
 
 void drawColours(const PictureAnswer& answer) {
-  ui::mutedText("Colour");
+  ui::mutedText(tr("Colour"));
   ImGui::SameLine(ui::scaled(kCardLabel));
   swatch(answer.shown);
   ImGui::SameLine(0, ui::scaled(6));
-  ImGui::TextUnformatted("here");
+  ImGui::TextUnformatted(tr("here"));
   ImGui::SameLine(0, ui::scaled(14));
   swatch(answer.truth);
   ImGui::SameLine(0, ui::scaled(6));
-  ImGui::TextUnformatted("truth");
+  ImGui::TextUnformatted(tr("truth"));
 }
 
 void drawPainter(const PixelPainter& painter) {
-  std::string from =
-      fmt::format("{:.2f} m away, {:.1f}° beside the eye", painter.metres, degrees(painter.radians));
-  if (painter.layer > 0) from = fmt::format("layer {}, ", painter.layer) + from;
-  ui::keyValue("Captured", from, kCardLabel);
+  std::string from = trf("{:.2f} m away, {:.1f}° beside the eye", painter.metres, degrees(painter.radians));
+  if (painter.layer > 0) from = trf("layer {}, ", painter.layer) + from;
+  ui::keyValue(tr("Captured"), from, kCardLabel);
   const bool few = painter.samplesPerPixel < 1;
-  ui::keyValue("Sampling",
-               fmt::format("{:.2f} samples per pixel{}", painter.samplesPerPixel, few ? ": too few" : ""),
+  ui::keyValue(tr("Sampling"),
+               trf("{:.2f} samples per pixel{}", painter.samplesPerPixel, few ? tr(": too few") : ""),
                kCardLabel);
   ui::tooltip(
-      "In the direction on the surface in which there are fewest. Below 1 the capture is coarser than "
-      "the screen.");
+      tr("In the direction on the surface in which there are fewest. Below 1 the capture is coarser than "
+         "the screen."));
 }
 
 void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
@@ -68,7 +69,7 @@ void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
   if (answer.surface) {
     const Mesh& mesh = open.scene->meshOf(answer.surface->mesh);
     const glm::dvec3& at = answer.surface->position;
-    ui::keyValue("Surface", mesh.name.empty() ? "without a name" : ui::shortenPath(mesh.name, 34),
+    ui::keyValue(tr("Surface"), mesh.name.empty() ? tr("without a name") : ui::shortenPath(mesh.name, 34),
                  kCardLabel);
     ui::keyValue("", fmt::format("x {:.2f}  y {:.2f}  z {:.2f} m", at.x, at.y, at.z), kCardLabel);
   }
@@ -78,36 +79,35 @@ void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
     const Region& region = open.layout->regions[std::size_t(answer.region)];
     const int most = open.project.budget.trianglesPerRegion;
     std::string triangles = ui::formatCount(answer.triangles);
-    if (most > 0) triangles += fmt::format(" of {}", ui::formatCount(std::size_t(most)));
-    ui::keyValue("Region", fmt::format("({}, {}), {} triangles", region.id.i, region.id.j, triangles),
+    if (most > 0) triangles += trf(" of {}", ui::formatCount(std::size_t(most)));
+    ui::keyValue(tr("Region"), trf("({}, {}), {} triangles", region.id.i, region.id.j, triangles),
                  kCardLabel);
   }
-  ui::keyValue("Error here", errorsText(answer.here), kCardLabel);
-  ui::tooltip(
-      fmt::format("Against {} rays per pixel, within {} pixels: how near, and what keeps it from the truth",
+  ui::keyValue(tr("Error here"), errorsText(answer.here), kCardLabel);
+  ui::tooltip(trf("Against {} rays per pixel, within {} pixels: how near, and what keeps it from the truth",
                   kAskedRays, kAskedPixels));
-  ui::keyValue("Frame", fmt::format("{:.1f} dB", answer.frame.psnr()), kCardLabel);
+  ui::keyValue(tr("Frame"), fmt::format("{:.1f} dB", answer.frame.psnr()), kCardLabel);
 }
 
 std::string costText(const BakeForecast& bake) {
-  if (bake.nothing()) return "is baked already";
-  return fmt::format("bakes {} cameras: {}, {}", bake.cameras, ui::formatDuration(bake.seconds()),
-                     ui::formatBytes(std::uint64_t(bake.bytes())));
+  if (bake.nothing()) return tr("is baked already");
+  return trf("bakes {} cameras: {}, {}", bake.cameras, ui::formatDuration(bake.seconds()),
+             ui::formatBytes(std::uint64_t(bake.bytes())));
 }
 
 void apply(PanelContext& context, const PictureQuestion& question, const Improvement& improvement) {
   Session& session = context.session();
   if (session.project() == question.open->project)
-    session.apply({improvement.project, "Improve: " + improvement.what});
+    session.apply({improvement.project, trf("Improve: {}", improvement.what)});
   else
-    session.messages().add(MessageLevel::warning, "The project has changed since: ask the picture again");
+    session.messages().add(MessageLevel::warning, tr("The project has changed since: ask the picture again"));
 }
 
 void drawImprovements(PanelContext& context, const PictureQuestion& question,
                       const std::vector<Improvement>& improvements) {
-  boldLine(context, "What would improve it, as predicted");
+  boldLine(context, tr("What would improve it, as predicted"));
   if (improvements.empty())
-    return ui::wrappedText(ui::palette::muted, "Nothing that can be set promises more here.");
+    return ui::wrappedText(ui::palette::muted, tr("Nothing that can be set promises more here."));
   for (std::size_t i = 0; i < improvements.size(); ++i) {
     const Improvement& each = improvements[i];
     ImGui::AlignTextToFramePadding();
@@ -117,9 +117,9 @@ void drawImprovements(PanelContext& context, const PictureQuestion& question,
     ui::tooltip(each.why);
     const float width = ui::scaled(64);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
-    if (ui::button(fmt::format("Apply##{}", i).c_str(), {width, 0})) apply(context, question, each);
+    if (ui::button(fmt::format("{}##{}", tr("Apply"), i).c_str(), {width, 0})) apply(context, question, each);
     context.log.item(fmt::format("answer.apply.{}", i));
-    ui::tooltip("Changes the project so; undo takes it back. It is seen once it is baked.");
+    ui::tooltip(tr("Changes the project so; undo takes it back. It is seen once it is baked."));
     ImGui::SetCursorPosX(ui::scaled(kCardLabel));
     ui::mutedText(costText(each.bake));
   }
@@ -145,17 +145,17 @@ std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& ar
   ImGui::PopStyleVar(2);
   bool close = false;
   if (const PictureQuestion question = *asked.question(); asked.answer()) {
-    boldLine(context, sourceName(*question.open->layout, asked.answer()->source).c_str());
+    boldLine(context, engineText(sourceName(*question.open->layout, asked.answer()->source)).c_str());
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ui::scaled(64));
-    close = ui::button("Close", {ui::scaled(64), 0});
+    close = ui::button(tr("Close"), {ui::scaled(64), 0});
     context.log.item("answer.close");
     drawAnswer(question, *asked.answer());
     if (asked.improvements())
       drawImprovements(context, question, *asked.improvements());
     else if (asked.problem().empty())
-      ui::mutedText("Looking for what would improve it…");
+      ui::mutedText(tr("Looking for what would improve it…"));
   } else if (asked.problem().empty()) {
-    ui::mutedText("Asking the picture…");
+    ui::mutedText(tr("Asking the picture…"));
   }
   if (!asked.problem().empty()) ui::wrappedText(ui::palette::danger, asked.problem());
   const float content = ImGui::GetCursorPosY() + ui::scaled(4);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
@@ -14,7 +16,7 @@ void row(PanelContext& context, const char* label, const char* name, int& count,
   context.log.item(std::string("array.count") + name);
   count = std::clamp(count, 1, 200);
   ImGui::SameLine();
-  ui::mutedText("every");
+  ui::mutedText(tr("every"));
   ImGui::SameLine();
   ImGui::SetNextItemWidth(92);
   ImGui::InputInt((std::string("##every") + name).c_str(), &every);
@@ -32,13 +34,13 @@ ImVec2 drawArrayPanel(PanelContext& context, const ImVec2& at, int places, int t
   ImGui::Begin("Array##array", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize);
-  ui::panelTitle(context.window.fonts().bold, "Array of the selection");
-  row(context, "Along 1", "I", state.array->countI, state.array->everyI);
-  row(context, "Along 2", "J", state.array->countJ, state.array->everyJ);
-  ui::mutedText(fmt::format("Places: {}, taken already: {}", places, taken));
+  ui::panelTitle(context.window.fonts().bold, tr("Array of the selection"));
+  row(context, tr("Along 1"), "I", state.array->countI, state.array->everyI);
+  row(context, tr("Along 2"), "J", state.array->countJ, state.array->everyJ);
+  ui::mutedText(trf("Places: {}, taken already: {}", places, taken));
   actionButton(context, "edit.placeArray", ButtonLook::primary, {110, 0});
   ImGui::SameLine();
-  const bool cancel = ui::button("Cancel", {110, 0});
+  const bool cancel = ui::button(tr("Cancel"), {110, 0});
   context.log.item("array.cancel");
   if (cancel) state.array.reset();
   const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();

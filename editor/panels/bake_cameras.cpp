@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -17,17 +18,17 @@ struct Look {
 Look lookOf(const QueuedCamera& camera) {
   switch (camera.stage) {
     case CameraStage::waiting:
-      return {ui::palette::faint, camera.previewed ? "waiting, has a preview" : "waiting"};
+      return {ui::palette::faint, camera.previewed ? tr("waiting, has a preview") : tr("waiting")};
     case CameraStage::tracing:
-      return {ui::palette::accent, camera.previewing ? "tracing a preview" : "tracing"};
+      return {ui::palette::accent, camera.previewing ? tr("tracing a preview") : tr("tracing")};
     case CameraStage::writing:
-      return {ui::palette::accent, camera.previewing ? "writing a preview" : "writing"};
+      return {ui::palette::accent, camera.previewing ? tr("writing a preview") : tr("writing")};
     case CameraStage::done:
-      return {ui::palette::good, "done"};
+      return {ui::palette::good, tr("done")};
     case CameraStage::reused:
-      return {ui::palette::good, "was there"};
+      return {ui::palette::good, tr("was there")};
     case CameraStage::failed:
-      return {ui::palette::danger, "failed"};
+      return {ui::palette::danger, tr("failed")};
   }
   return {ui::palette::faint, ""};
 }
@@ -57,17 +58,17 @@ void drawRow(const QueuedCamera& camera, bool severalStoreys) {
 void drawBakeCameras(PanelContext& context) {
   const BakeQueue& queue = context.session().bakeQueue();
   if (queue.cameras().empty()) {
-    ui::wrappedText(ui::palette::faint, "The cameras of a bake are listed here while it runs.");
+    ui::wrappedText(ui::palette::faint, tr("The cameras of a bake are listed here while it runs."));
     return;
   }
   const bool severalStoreys = queue.cameras().back().storey > 0;
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
   if (!ImGui::BeginTable("##cameras", 3, kFlags)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn(severalStoreys ? "Storey / camera" : "Camera", ImGuiTableColumnFlags_WidthFixed,
-                          ui::scaled(severalStoreys ? 104 : 56));
-  ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Traced", ImGuiTableColumnFlags_WidthFixed, ui::scaled(104));
+  ImGui::TableSetupColumn(severalStoreys ? tr("Storey / camera") : tr("Camera"),
+                          ImGuiTableColumnFlags_WidthFixed, ui::scaled(severalStoreys ? 104 : 56));
+  ImGui::TableSetupColumn(tr("State"), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(tr("Traced"), ImGuiTableColumnFlags_WidthFixed, ui::scaled(104));
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
   clipper.Begin(int(queue.cameras().size()));

@@ -6,6 +6,8 @@
 namespace acentric::editor {
 
 void drawBakePanel(PanelContext& context);
+/// "1 thread", "4 threads"
+std::string threadsText(int threads);
 
 /// "Baking: baking camera 12, 12 of 54" for any running job, and how far it is (< 0: unknown).
 std::string progressText(const Job& job);

@@ -7,6 +7,7 @@
 #include "editor/panels/paths_panel.h"
 #include "editor/panels/problems_panel.h"
 #include "ui/tabs.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -17,11 +18,12 @@ struct Entry {
   const char* label;
   void (*draw)(PanelContext&);
 };
-constexpr std::array kTabs{Entry{BottomTab::messages, "tab.messages", "Messages", drawMessagesPanel},
-                           Entry{BottomTab::history, "tab.history", "History", drawHistoryPanel},
-                           Entry{BottomTab::paths, "tab.paths", "Paths", drawPathsPanel},
-                           // Last: its count comes and goes, and moves no other.
-                           Entry{BottomTab::problems, "tab.problems", "Problems", drawProblemsPanel}};
+constexpr std::array kTabs{
+    Entry{BottomTab::messages, "tab.messages", trLater("Messages"), drawMessagesPanel},
+    Entry{BottomTab::history, "tab.history", trLater("History"), drawHistoryPanel},
+    Entry{BottomTab::paths, "tab.paths", trLater("Paths"), drawPathsPanel},
+    // Last: its count comes and goes, and moves no other.
+    Entry{BottomTab::problems, "tab.problems", trLater("Problems"), drawProblemsPanel}};
 
 }  // namespace
 
@@ -29,7 +31,7 @@ void drawBottomTabs(PanelContext& context) {
   const BottomTab open = context.state().bottomTab;
   std::array<ui::Tab, kTabs.size()> tabs;
   for (std::size_t t = 0; t < tabs.size(); ++t) {
-    tabs[t] = {kTabs[t].label, kTabs[t].tab == open};
+    tabs[t] = {tr(kTabs[t].label), kTabs[t].tab == open};
     if (kTabs[t].tab != BottomTab::problems) continue;
     const ProblemMark mark = problemMark(context.session());
     tabs[t].mark = mark.text;

@@ -3,12 +3,14 @@
 #include <array>
 
 #include "editor/panels/view_strip.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
 
-constexpr std::array<ViewTab, 3> kViews{
-    {{"view.plan", "Plan"}, {"view.scene3d", "3D"}, {"view.accuracy", "Accuracy"}}};
+constexpr std::array<ViewTab, 3> kViews{{{"view.plan", trLater("Plan")},
+                                         {"view.scene3d", trLater("3D")},
+                                         {"view.accuracy", trLater("Accuracy")}}};
 
 const ViewTab& tabOf(View view) { return kViews[std::size_t(view)]; }
 static_assert(View::plan == View(0) && View::scene3d == View(1) && View::accuracy == View(2));

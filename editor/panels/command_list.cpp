@@ -7,6 +7,7 @@
 
 #include "editor/actions/action_search.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -74,7 +75,7 @@ bool CommandList::drawField(const char* hint, ui::UiLog& log) {
 }
 
 void CommandList::drawCommands(PanelContext& context) {
-  if (drawField("Find a command: letters of its name, menu or key", context.log)) selected_ = 0;
+  if (drawField(tr("Find a command: letters of its name, menu or key"), context.log)) selected_ = 0;
   const auto found = searchActions(context.table, query_, context.state().recentActions);
   const int moved = std::exchange(steps_, 0);
   scroll_ = moved != 0;
@@ -88,22 +89,28 @@ void CommandList::drawCommands(PanelContext& context) {
     const Action& action = *found[std::size_t(row)];
     const std::string why = whyDisabled(action, context.actions);
     ImGui::PushStyleColor(ImGuiCol_Text, (why.empty() ? ui::palette::text : ui::palette::faint).vec());
-    if (ImGui::Selectable((action.label + "##" + action.id).c_str(), row == selected_)) run = &action;
+    if (ImGui::Selectable((tr(action.label) + "##" + action.id).c_str(), row == selected_)) run = &action;
     ImGui::PopStyleColor();
     context.log.item("command." + action.id);
     if (row == selected_ && scroll_) ImGui::SetScrollHereY();
     if (ImGui::IsItemHovered() && ImGui::GetIO().MouseDelta.y != 0) selected_ = row;
-    const std::string menu = action.menu.empty() ? "Window" : action.menu;
+    const std::string menu = tr(menuOf(action));
     ImGui::SameLine(ImGui::GetWindowWidth() * 0.46F);
+    const std::string key = describe(action.shortcut);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - ui::scaled(12);
+    ImGui::PushClipRect(at, {end - ImGui::CalcTextSize(key.c_str()).x, at.y + ImGui::GetTextLineHeight()},
+                        true);
     ui::mutedText(why.empty() ? menu : menu + "   (" + why + ")");
-    rightText(ui::palette::accent, describe(action.shortcut));
+    ImGui::PopClipRect();
+    rightText(ui::palette::accent, key);
   }
-  if (found.empty()) ui::mutedText("No command has these letters.");
+  if (found.empty()) ui::mutedText(tr("No command has these letters."));
   ImGui::EndChild();
   ImGui::Separator();
   if (!found.empty()) {
     const Action& action = *found[std::size_t(selected_)];
-    ui::wrappedText(ui::palette::muted, action.help.empty() ? action.label : action.help);
+    ui::wrappedText(ui::palette::muted, tr(action.help.empty() ? action.label : action.help));
     if (std::exchange(enter_, false)) run = &action;
   }
   if (run == nullptr || !run->enabled(context.actions)) return;
@@ -113,16 +120,16 @@ void CommandList::drawCommands(PanelContext& context) {
 }
 
 void CommandList::drawKeys(PanelContext& context) {
-  drawField("Find a key, or what it does", context.log);
+  drawField(tr("Find a key, or what it does"), context.log);
   const auto found = searchKeys(context.table, query_);
   const float step = ImGui::GetTextLineHeightWithSpacing();
   ImGui::BeginChild("##found");
   if (const int moved = std::exchange(steps_, 0); moved != 0)
     ImGui::SetScrollY(ImGui::GetScrollY() + float(moved) * step);
   if (ImGui::BeginTable("##keys", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-    ImGui::TableSetupColumn("Keys", 0, 0.34F);
-    ImGui::TableSetupColumn("What they do", 0, 0.54F);
-    ImGui::TableSetupColumn("Where", 0, 0.12F);
+    ImGui::TableSetupColumn(tr("Keys"), 0, 0.33F);
+    ImGui::TableSetupColumn(tr("What they do"), 0, 0.51F);
+    ImGui::TableSetupColumn(tr("Where"), 0, 0.16F);
     ImGui::TableHeadersRow();
     for (const KeyHelp& line : found) {
       ImGui::TableNextRow();
@@ -135,7 +142,7 @@ void CommandList::drawKeys(PanelContext& context) {
     }
     ImGui::EndTable();
   }
-  if (found.empty()) ui::mutedText("No key does that. Ctrl+Shift+P finds commands without a key, too.");
+  if (found.empty()) ui::mutedText(tr("No key does that. Ctrl+Shift+P finds commands without a key, too."));
   ImGui::EndChild();
   escape_ = escape_ || std::exchange(enter_, false);
 }

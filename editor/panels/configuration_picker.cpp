@@ -10,6 +10,7 @@
 #include "engine/layout/images_per_view.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -49,23 +50,22 @@ void drawThumb(ImDrawList& list, const ImVec2& at, float size, const Layout& pat
 
 std::string textOf(const ConfigurationFacts& facts, const std::optional<LaidCounts>& laid,
                    const PixelCost& cost) {
-  std::string text = laid ? fmt::format("{} regions, {} cameras here; per", ui::formatCount(laid->regions),
-                                        ui::formatCount(laid->cameras))
-                          : std::string("Per");
-  text += fmt::format(" m² {:.2f} regions, {:.2f} cameras", facts.regions, facts.cameras);
-  const std::string pixels = ui::formatCount(std::uint64_t(facts.pixels / 1000)) + " thousand";
-  text += cost.samples ? fmt::format(", about {} thousand samples",
-                                     ui::formatCount(std::uint64_t(facts.pixels * *cost.samples / 1000)))
-                       : fmt::format(", {} pixels to trace", pixels);
-  if (cost.bytes)
-    text += fmt::format(", about {}", ui::formatBytes(std::uint64_t(facts.pixels * *cost.bytes)));
+  std::string text = laid ? trf("{} regions, {} cameras here; per", ui::formatCount(laid->regions),
+                                ui::formatCount(laid->cameras))
+                          : std::string(tr("Per"));
+  text += trf(" m² {:.2f} regions, {:.2f} cameras", facts.regions, facts.cameras);
+  const std::string pixels = trf("{} thousand", ui::formatCount(std::uint64_t(facts.pixels / 1000)));
+  text += cost.samples ? trf(", about {} thousand samples",
+                             ui::formatCount(std::uint64_t(facts.pixels * *cost.samples / 1000)))
+                       : trf(", {} pixels to trace", pixels);
+  if (cost.bytes) text += trf(", about {}", ui::formatBytes(std::uint64_t(facts.pixels * *cost.bytes)));
   return text;
 }
 
 std::string imagesText(Configuration configuration) {
   const ImagesPerView& images = imagesPerView(configuration);
-  return fmt::format("Images that a view is painted from\n60° wide: {}\n90° wide: {}",
-                     sharesText(images.at60), sharesText(images.at90));
+  return trf("Images that a view is painted from\n60° wide: {}\n90° wide: {}", sharesText(images.at60),
+             sharesText(images.at90));
 }
 
 PixelCost costOf(Session& session) {
@@ -118,7 +118,7 @@ bool ConfigurationPicker::drawChoice(PanelContext& context, Configuration config
   list.AddText(bold, bold->FontSize, {x, at.y + ui::scaled(1)}, palette::text.packed(),
                nameOf(configuration));
   list.AddText(small, small->FontSize, {x + ui::scaled(18), at.y + ui::scaled(3)}, palette::muted.packed(),
-               describe(configuration));
+               tr(describe(configuration)));
   list.AddText(small, small->FontSize, {x, at.y + ui::scaled(21)}, palette::text.packed(),
                adviceOn(configuration), nullptr, room);
   list.AddText(small, small->FontSize, {x, at.y + ui::scaled(54)}, palette::muted.packed(),
@@ -132,16 +132,16 @@ void ConfigurationPicker::draw(PanelContext& context, float labelWidth) {
   Session& session = context.session();
   context.state().trial.reset();
   ImGui::AlignTextToFramePadding();
-  ui::mutedText("Configuration");
+  ui::mutedText(tr("Configuration"));
   ImGui::SameLine(ui::scaled(labelWidth));
   const char* name = nameOf(session.project().layout().configuration);
-  if (ui::button(fmt::format("{}   choose…##configuration", name).c_str(),
-                 {ImGui::GetContentRegionAvail().x, 0}, session.built() != nullptr)) {
+  if (ui::button(trf("{}   choose…##configuration", name).c_str(), {ImGui::GetContentRegionAvail().x, 0},
+                 session.built() != nullptr)) {
     prepare(session);
     ImGui::OpenPopup("##configurations");
   }
   context.log.item("settings.configuration");
-  ui::tooltip("How panoramas are placed: angle of a camera and the polygons of the lattice.");
+  ui::tooltip(tr("How panoramas are placed: angle of a camera and the polygons of the lattice."));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ui::scaled(ImVec2(12, 10)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ui::scaled(ImVec2(8, kRowGap)));
   // Over the settings, so that the plan shows what is pointed at.
@@ -150,8 +150,8 @@ void ConfigurationPicker::draw(PanelContext& context, float labelWidth) {
     std::optional<Configuration> chosen;
     for (int c = 0; c < kConfigurations; ++c)
       if (drawChoice(context, Configuration(c))) chosen = Configuration(c);
-    ui::mutedText(cost_.bytes ? "Bytes by what is baked or was estimated so far"
-                              : "Bytes are foretold after a first bake or an estimate");
+    ui::mutedText(cost_.bytes ? tr("Bytes by what is baked or was estimated so far")
+                              : tr("Bytes are foretold after a first bake or an estimate"));
     if (chosen) {
       context.state().trial.reset();
       session.apply(setConfiguration(session.project(), *chosen));
@@ -160,7 +160,7 @@ void ConfigurationPicker::draw(PanelContext& context, float labelWidth) {
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar(2);
-  ui::wrappedText(palette::faint, describe(session.project().layout().configuration));
+  ui::wrappedText(palette::faint, tr(describe(session.project().layout().configuration)));
 }
 
 }  // namespace acentric::editor

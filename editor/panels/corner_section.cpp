@@ -1,6 +1,7 @@
 #include "editor/panels/corner_section.h"
 
 #include "editor/commands/layout_edits.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -9,7 +10,7 @@ void drawCornerSection(PanelContext& context, float labelWidth) {
   const Outline& outline = context.session().project().layout().outline;
   const auto place = placeOf(outline, state.scene3d.corner);
   if (!place || state.centreView != View::scene3d || !state.selection.empty()) return;
-  if (!ui::section("Corner of the outline###corner")) return;
+  if (!ui::section((std::string(tr("Corner of the outline")) + "###corner").c_str())) return;
   for (int k = 0; k < 2; ++k) {
     double value = (*place)[k];
     const ui::FieldEdit edit =

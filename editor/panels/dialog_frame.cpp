@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 
 float dialogButtonWidth() { return ui::scaled(112); }
 
-bool beginDialog(const char* id, float width) {
+bool beginDialog(const char* title, float width) {
+  // So that it stays open while the language changes.
+  const std::string named = tr(title) + std::string("###") + title;
+  const char* const id = named.c_str();
   if (!ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});

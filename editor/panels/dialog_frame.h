@@ -13,8 +13,9 @@ struct DialogKeys {
 
 /// Of a dialog's buttons, scaled.
 float dialogButtonWidth();
-/// A modal in the middle of the window, `width` unscaled; call endDialog() if true. `id` is also its title.
-bool beginDialog(const char* id, float width);
+/// A modal in the middle of the window, `width` unscaled; call endDialog() if true. `title`: English, which
+/// is also its id.
+bool beginDialog(const char* title, float width);
 void endDialog(bool close);
 /// So many buttons, of `width` (0 = the usual one), stand at the lower right.
 void alignButtons(int buttons, float width = 0);

@@ -10,6 +10,7 @@
 #include "editor/session/project_files.h"
 #include "engine/export/bundle.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -29,7 +30,7 @@ void giveClipboard(PanelContext& context) {
   if (text.empty()) return;
   ImGui::SetClipboardText(text.c_str());
   context.log.event("clipboard", text);
-  context.session().messages().add(MessageLevel::info, "Copied " + text);
+  context.session().messages().add(MessageLevel::info, trf("Copied {}", text));
 }
 
 }  // namespace
@@ -61,31 +62,31 @@ void Dialogs::openFileDialogs(PanelContext& context) {
   };
   const std::filesystem::path& last = session.preferences().lastFolder;
   if (state.dialog == Dialog::openFile) {
-    browse("Open a project, a walk or a model", last, allEndings(),
+    browse(tr("Open a project, a walk or a model"), last, allEndings(),
            [&session](const std::filesystem::path& file) { session.open(file); });
   } else if (state.dialog == Dialog::newFile) {
-    browse("Choose a model for a new project", last, modelEndings(),
+    browse(tr("Choose a model for a new project"), last, modelEndings(),
            [&session, &state](const std::filesystem::path& file) {
              session.open(file);
              state.draft = {file};
              state.dialog = Dialog::newProject;
            });
   } else if (state.dialog == Dialog::locateScene) {
-    browse("Where is the model?", session.file().parent_path(), modelEndings(),
+    browse(tr("Where is the model?"), session.file().parent_path(), modelEndings(),
            [&session](const std::filesystem::path& file) { session.locateScene(file); });
   } else if (state.dialog == Dialog::exportPath) {
     state.dialog = Dialog::none;
     const WalkPath* path = state.walkSelection.path(session.project());
     if (path == nullptr) return;
     browser_.open(
-        {"Export " + path->name, true, session.file().parent_path(), path->name + ".json", {".json"}},
+        {trf("Export {}", path->name), true, session.file().parent_path(), path->name + ".json", {".json"}},
         [&session, number = state.walkSelection.number](const std::filesystem::path& file) {
           session.exportPath(number, file);
         });
   } else if (state.dialog == Dialog::saveAs) {
     state.dialog = Dialog::none;
     const Continuation then = std::exchange(state.continuation, {});
-    browser_.open({"Save the project",
+    browser_.open({tr("Save the project"),
                    true,
                    session.file().parent_path(),
                    session.readOnly() ? freeCopyName(session.file()).filename().string()
@@ -99,10 +100,10 @@ void Dialogs::openFileDialogs(PanelContext& context) {
 }
 
 void Dialogs::drawFailure(PanelContext& context) {
-  if (!beginDialog("That did not work", 560)) return;
+  if (!beginDialog(trLater("That did not work"), 560)) return;
   ui::wrappedText(ui::palette::text, failures_.front());
   alignButtons(1);
-  const bool done = ui::primaryButton("OK", {dialogButtonWidth(), 0}) || enter_ || escape_;
+  const bool done = ui::primaryButton(tr("OK"), {dialogButtonWidth(), 0}) || enter_ || escape_;
   context.log.item("dialog.ok");
   if (done) failures_.pop_front();
   endDialog(done);
@@ -110,17 +111,17 @@ void Dialogs::drawFailure(PanelContext& context) {
 
 void Dialogs::drawUnsavedChanges(PanelContext& context) {
   EditorState& state = context.state();
-  if (!beginDialog("Unsaved changes", 520)) return;
+  if (!beginDialog(trLater("Unsaved changes"), 520)) return;
   ui::wrappedText(ui::palette::text,
-                  "Save the changes to " + context.session().file().filename().string() + " first?");
+                  trf("Save the changes to {} first?", context.session().file().filename().string()));
   alignButtons(3);
-  const bool cancel = ui::button("Cancel", {dialogButtonWidth(), 0}) || escape_;
+  const bool cancel = ui::button(tr("Cancel"), {dialogButtonWidth(), 0}) || escape_;
   context.log.item("dialog.cancel");
   ImGui::SameLine();
-  const bool discard = ui::button("Discard", {dialogButtonWidth(), 0});
+  const bool discard = ui::button(tr("Discard"), {dialogButtonWidth(), 0});
   context.log.item("dialog.discard");
   ImGui::SameLine();
-  const bool save = ui::primaryButton("Save", {dialogButtonWidth(), 0}) || enter_;
+  const bool save = ui::primaryButton(tr("Save"), {dialogButtonWidth(), 0}) || enter_;
   context.log.item("dialog.save");
   if (cancel || discard || save) {
     state.dialog = Dialog::none;
@@ -134,16 +135,15 @@ void Dialogs::drawUnsavedChanges(PanelContext& context) {
 }
 
 void Dialogs::drawRecovery(PanelContext& context) {
-  if (!beginDialog("Recover unsaved changes?", 560)) return;
-  ui::wrappedText(
-      ui::palette::text,
-      "The last run ended without saving. Its last autosave differs from the file. The file itself is as you "
-      "saved it.");
+  if (!beginDialog(trLater("Recover unsaved changes?"), 560)) return;
+  ui::wrappedText(ui::palette::text, tr("The last run ended without saving. Its last autosave differs from "
+                                        "the file. The file itself is as you "
+                                        "saved it."));
   alignButtons(2);
-  const bool discard = ui::button("Discard", {dialogButtonWidth(), 0});
+  const bool discard = ui::button(tr("Discard"), {dialogButtonWidth(), 0});
   context.log.item("dialog.discard");
   ImGui::SameLine();
-  const bool recover = ui::primaryButton("Recover", {dialogButtonWidth(), 0}) || enter_;
+  const bool recover = ui::primaryButton(tr("Recover"), {dialogButtonWidth(), 0}) || enter_;
   context.log.item("dialog.recover");
   if (discard || recover) context.session().answerRecovery(recover);
   endDialog(discard || recover);
@@ -151,33 +151,34 @@ void Dialogs::drawRecovery(PanelContext& context) {
 
 void Dialogs::drawOpening(PanelContext& context) {
   const Job& job = context.session().opening();
-  if (!beginDialog("Opening", 520)) return;
+  if (!beginDialog(trLater("Opening"), 520)) return;
   ui::wrappedText(ui::palette::text, job.label());
   ui::progressBar(progressFraction(job), progressText(job), context.now);
   alignButtons(1);
-  const bool cancel = ui::button("Cancel", {dialogButtonWidth(), 0}, !job.cancelling()) || escape_;
+  const bool cancel = ui::button(tr("Cancel"), {dialogButtonWidth(), 0}, !job.cancelling()) || escape_;
   context.log.item("dialog.cancel");
   if (cancel) context.session().cancelOpening();
   endDialog(false);
 }
 
 void Dialogs::drawPreferencesDialog(PanelContext& context) {
-  if (!beginDialog("Preferences", 560)) return;
+  if (!beginDialog(trLater("Preferences"), 560)) return;
   const bool done = drawPreferences(context) || escape_;
   if (done) context.state().dialog = Dialog::none;
   endDialog(done);
 }
 
 void Dialogs::drawAbout(PanelContext& context) {
-  if (!beginDialog("About Acentric", 520)) return;
-  ui::wrappedText(ui::palette::text,
-                  "Acentric: walkthroughs made of acentric panorama views. Lay a tessellation, bake, walk.");
+  if (!beginDialog(trLater("About Acentric"), 520)) return;
+  ui::wrappedText(
+      ui::palette::text,
+      tr("Acentric: walkthroughs made of acentric panorama views. Lay a tessellation, bake, walk."));
   ImGui::Dummy({0, 2});
   ui::wrappedText(ui::palette::faint, context.window.graphicsDescription());
   if (context.window.fonts().icons != nullptr)
-    ui::wrappedText(ui::palette::faint, "Icons: Fork Awesome, forkaweso.me, SIL Open Font License 1.1.");
+    ui::wrappedText(ui::palette::faint, tr("Icons: Fork Awesome, forkaweso.me, SIL Open Font License 1.1."));
   alignButtons(1);
-  const bool done = ui::primaryButton("Close", {dialogButtonWidth(), 0}) || enter_ || escape_;
+  const bool done = ui::primaryButton(tr("Close"), {dialogButtonWidth(), 0}) || enter_ || escape_;
   context.log.item("dialog.ok");
   if (done) context.state().dialog = Dialog::none;
   endDialog(done);

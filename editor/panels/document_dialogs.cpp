@@ -1,4 +1,5 @@
 #include "editor/panels/document_dialogs.h"
+#include "editor/panels/bake_panel.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +7,7 @@
 
 #include "engine/pipeline/new_project.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -53,20 +55,19 @@ void drawFound(const Session& session, const std::string& name) {
   const Storey& storey = session.project().current();
   const double laidOut = storey.layout.outline.area();
   const double all = storey.walkable.empty() ? laidOut : storey.walkable.area();
-  std::string text = fmt::format("{}: {} to walk on were found", name, ui::formatArea(all));
+  std::string text = trf("{}: {} to walk on were found", name, ui::formatArea(all));
   if (!storey.walkable.empty())
-    text += fmt::format(
-        ", of which {} are laid out: as much as bakes in about {:g} minutes here, {} captures at "
-        "most. Draw a larger or another outline to have more",
-        ui::formatArea(laidOut), kUsualBakeMinutes, ui::formatCount(std::uint64_t(kUsualMostCameras)));
-  ui::wrappedText(ui::palette::muted, text + ". All of this can be changed later.");
-  std::string plan = fmt::format("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
+    text +=
+        trf(", of which {} are laid out: as much as bakes in about {:g} minutes here, {} captures at "
+            "most. Draw a larger or another outline to have more",
+            ui::formatArea(laidOut), kUsualBakeMinutes, ui::formatCount(std::uint64_t(kUsualMostCameras)));
+  ui::wrappedText(ui::palette::muted, trf("{}. All of this can be changed later.", text));
+  std::string plan = trf("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
   if (const BakeEstimate* estimate = session.estimate())
-    plan += fmt::format(": about {} to bake with {} threads, {} on disk",
-                        ui::formatDuration(estimate->seconds.value), session.bakeThreads(),
-                        ui::formatBytes(std::uint64_t(estimate->bytes.value)));
+    plan += trf(": about {} to bake with {}, {} on disk", ui::formatDuration(estimate->seconds.value),
+                threadsText(session.bakeThreads()), ui::formatBytes(std::uint64_t(estimate->bytes.value)));
   else if (session.estimating().running())
-    plan += ": what baking them takes is being estimated…";
+    plan += tr(": what baking them takes is being estimated…");
   ui::wrappedText(ui::palette::muted, plan);
 }
 
@@ -74,25 +75,25 @@ void drawDraft(PanelContext& context, NewProjectDraft& draft) {
   std::vector<ui::Choice> choices;
   for (int i = 0; i <= int(Configuration::g); ++i)
     choices.push_back(
-        {fmt::format("{}   {}", nameOf(Configuration(i)), describe(Configuration(i))), "", true});
+        {fmt::format("{}   {}", nameOf(Configuration(i)), tr(describe(Configuration(i)))), "", true});
   int index = int(draft.configuration);
-  ui::choiceField("Configuration", choices, index, kDialogLabelWidth,
-                  "How panoramas are placed: angle of a camera and the polygons of the lattice.");
+  ui::choiceField(tr("Configuration"), choices, index, kDialogLabelWidth,
+                  tr("How panoramas are placed: angle of a camera and the polygons of the lattice."));
   context.log.item("new.configuration");
   draft.configuration = Configuration(index);
   if (draft.derived) draft.cellSize = derivedCell(context.session().project(), draft.configuration);
-  const ui::FieldEdit size =
-      ui::numberField({"Cell size", "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
-                       "Edge length of the polygons. At first about a dozen rings fill the walkable area."},
-                      draft.cellSize, kDialogLabelWidth);
+  const ui::FieldEdit size = ui::numberField(
+      {tr("Cell size"), "%.4g m", 0.01, kLeastCellSize, kLargestCellSize,
+       tr("Edge length of the polygons. At first about a dozen rings fill the walkable area.")},
+      draft.cellSize, kDialogLabelWidth);
   context.log.item("new.cellSize");
   if (size.changed) draft.derived = false;
-  ui::numberField(
-      {"Eye height", "%.2f m", 0.005, 0.05, 1000, "Of every capture and of the walk, above the floor."},
-      draft.eyeHeight, kDialogLabelWidth);
+  ui::numberField({tr("Eye height"), "%.2f m", 0.005, 0.05, 1000,
+                   tr("Of every capture and of the walk, above the floor.")},
+                  draft.eyeHeight, kDialogLabelWidth);
   context.log.item("new.eyeHeight");
-  ui::checkField("All storeys", draft.everyStorey, kDialogLabelWidth,
-                 "A layout on each floor that is found, not only on the largest.");
+  ui::checkField(tr("All storeys"), draft.everyStorey, kDialogLabelWidth,
+                 tr("A layout on each floor that is found, not only on the largest."));
   context.log.item("new.everyStorey");
 }
 
@@ -114,13 +115,13 @@ void drawNewProject(PanelContext& context, const DialogKeys& keys) {
     fillDraft(draft, session);
     session.glanceAtBake();
   }
-  if (!beginDialog("New project", 560)) return;
+  if (!beginDialog(trLater("New project"), 560)) return;
   drawFound(session, draft.model.filename().string());
   ImGui::Dummy({0, 4});
   drawDraft(context, draft);
   ButtonRow row(context, 2, dialogButtonWidth());
-  const bool cancel = row.button("Cancel", "cancel") || keys.escape;
-  const bool create = row.button("Create", "create", true) || keys.enter;
+  const bool cancel = row.button(tr("Cancel"), "cancel") || keys.escape;
+  const bool create = row.button(tr("Create"), "create", true) || keys.enter;
   if (cancel) session.close();
   if (create) {
     NewProjectOptions options;
@@ -139,16 +140,15 @@ void drawNewProject(PanelContext& context, const DialogKeys& keys) {
 
 void drawLockQuestion(PanelContext& context, const DialogKeys& keys) {
   Session& session = context.session();
-  if (!beginDialog("Open in another editor", 600)) return;
-  ui::wrappedText(ui::palette::text,
-                  fmt::format("{} is open at {}. What both save would overwrite each other.",
-                              session.file().filename().string(), describe(*session.lockedBy())));
+  if (!beginDialog(trLater("Open in another editor"), 600)) return;
+  ui::wrappedText(ui::palette::text, trf("{} is open at {}. What both save would overwrite each other.",
+                                         session.file().filename().string(), describe(*session.lockedBy())));
   ButtonRow row(context, 3, ui::scaled(kWideButton));
-  const bool takeOver = row.button("Take over", "takeOver");
-  ui::tooltip("The other editor becomes read-only. For one that no longer answers.");
-  const bool copy = row.button("Open a copy", "copy");
-  ui::tooltip("Saved beside it under a name of its own, with the captures.");
-  const bool readOnly = row.button("Read-only", "readOnly", true) || keys.enter || keys.escape;
+  const bool takeOver = row.button(tr("Take over"), "takeOver");
+  ui::tooltip(tr("The other editor becomes read-only. For one that no longer answers."));
+  const bool copy = row.button(tr("Open a copy"), "copy");
+  ui::tooltip(tr("Saved beside it under a name of its own, with the captures."));
+  const bool readOnly = row.button(tr("Read-only"), "readOnly", true) || keys.enter || keys.escape;
   if (takeOver) session.answerLock(LockAnswer::takeOver);
   if (copy) session.answerLock(LockAnswer::copy);
   if (readOnly) session.answerLock(LockAnswer::readOnly);
@@ -157,17 +157,17 @@ void drawLockQuestion(PanelContext& context, const DialogKeys& keys) {
 
 void drawChangedOnDisk(PanelContext& context, const DialogKeys& keys) {
   EditorState& state = context.state();
-  if (!beginDialog("Changed by another program", 620)) return;
+  if (!beginDialog(trLater("Changed by another program"), 620)) return;
   ui::wrappedText(
       ui::palette::text,
       context.session().file().filename().string() +
-          " was changed on disk since it was opened or saved here. Reloading takes that state as an "
-          "edit: undo brings yours back.");
+          tr(" was changed on disk since it was opened or saved here. Reloading takes that state as an "
+             "edit: undo brings yours back."));
   ButtonRow row(context, 4, ui::scaled(kWideButton));
-  const bool cancel = row.button("Cancel", "cancel") || keys.escape;
-  const bool overwrite = row.button("Overwrite", "overwrite");
-  const bool reloading = row.button("Reload", "reload");
-  const bool elsewhere = row.button("Save as…", "saveAs", true) || keys.enter;
+  const bool cancel = row.button(tr("Cancel"), "cancel") || keys.escape;
+  const bool overwrite = row.button(tr("Overwrite"), "overwrite");
+  const bool reloading = row.button(tr("Reload"), "reload");
+  const bool elsewhere = row.button(tr("Save as…"), "saveAs", true) || keys.enter;
   if (cancel || overwrite || reloading || elsewhere) {
     state.dialog = elsewhere ? Dialog::saveAs : Dialog::none;
     const Continuation then = elsewhere ? state.continuation : std::exchange(state.continuation, {});
@@ -179,17 +179,17 @@ void drawChangedOnDisk(PanelContext& context, const DialogKeys& keys) {
 
 void drawMissingModel(PanelContext& context, const DialogKeys& keys) {
   Session& session = context.session();
-  if (!beginDialog("The model is missing", 600)) return;
+  if (!beginDialog(trLater("The model is missing"), 600)) return;
   ui::wrappedText(
       ui::palette::text,
-      fmt::format("{} is not there. {}", sceneFileOf(session.file(), session.project()).string(),
-                  session.sceneFiles().fromCache ? "The project is shown with the model as it was last "
-                                                   "imported: it can be edited, baked and walked."
-                                                 : "The layout can be edited, but there is nothing to bake "
-                                                   "or to walk through until the model is found."));
+      trf("{} is not there. {}", sceneFileOf(session.file(), session.project()).string(),
+          session.sceneFiles().fromCache ? tr("The project is shown with the model as it was last "
+                                              "imported: it can be edited, baked and walked.")
+                                         : tr("The layout can be edited, but there is nothing to bake "
+                                              "or to walk through until the model is found.")));
   ButtonRow row(context, 2, ui::scaled(kWideButton));
-  const bool later = row.button("Not now", "later") || keys.escape;
-  const bool locate = row.button("Locate…", "locate", true) || keys.enter;
+  const bool later = row.button(tr("Not now"), "later") || keys.escape;
+  const bool locate = row.button(tr("Locate…"), "locate", true) || keys.enter;
   if (later || locate) session.answerLocate();
   if (locate) context.state().dialog = Dialog::locateScene;
   endDialog(later || locate);
@@ -198,19 +198,19 @@ void drawMissingModel(PanelContext& context, const DialogKeys& keys) {
 void drawOutsideModel(PanelContext& context, const DialogKeys& keys) {
   Session& session = context.session();
   const Session::OutsideModel& outside = *session.outsideModel();
-  if (!beginDialog("The model lies outside the project", 640)) return;
-  ui::wrappedText(
-      ui::palette::text,
-      fmt::format("{} names its model as {}. A project's model now lies in the project's folder, so "
-                  "that the folder can be moved and shared as a whole.",
-                  outside.projectFile.filename().string(), outside.scene.string()));
+  if (!beginDialog(trLater("The model lies outside the project"), 640)) return;
+  ui::wrappedText(ui::palette::text,
+                  trf("{} names its model as {}. A project's model now lies in the project's folder, so "
+                      "that the folder can be moved and shared as a whole.",
+                      outside.projectFile.filename().string(), outside.scene.string()));
   ButtonRow row(context, 3, ui::scaled(kWideButton));
-  const bool cancel = row.button("Cancel", "cancel") || keys.escape;
-  const bool link = row.button("Link to it", "link");
-  ui::tooltip("Makes a link to the model where it lies. The project works on this machine only.");
-  const bool bring = row.button("Bring it in", "bring", true) || keys.enter;
+  const bool cancel = row.button(tr("Cancel"), "cancel") || keys.escape;
+  const bool link = row.button(tr("Link to it"), "link");
+  ui::tooltip(tr("Makes a link to the model where it lies. The project works on this machine only."));
+  const bool bring = row.button(tr("Bring it in"), "bring", true) || keys.enter;
   ui::tooltip(
-      "Puts the model and the files it names into a folder 'models' beside the project. The originals stay.");
+      tr("Puts the model and the files it names into a folder 'models' beside the project. The originals "
+         "stay."));
   if (bring || link || cancel)
     session.answerOutside(bring  ? std::optional(Collect::files)
                           : link ? std::optional(Collect::link)

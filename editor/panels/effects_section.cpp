@@ -5,6 +5,8 @@
 #include "editor/commands/setting_edits.h"
 #include "editor/panels/project_field.h"
 #include "editor/panels/settings_panel.h"
+#include "editor/session/engine_texts.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -12,20 +14,20 @@ namespace {
 void drawEffect(PanelContext& context, Effect effect, const EffectState& effectState) {
   ImGui::PushID(int(effect));
   bool on = effectState.on;
-  if (ui::checkBox(labelOf(effect), &on)) {
+  if (ui::checkBox(tr(labelOf(effect)), &on)) {
     const Project& project = context.session().project();
     const bool asCalledFor = on == effectState.calledFor;
     context.session().apply(setEffect(project, effect, asCalledFor ? std::nullopt : std::optional(on)));
   }
-  ui::tooltip(effectState.reason);
+  ui::tooltip(engineText(effectState.reason));
   if (const EffectCosts* costs = context.session().effectCosts(); costs && effectState.on) {
     ImGui::SameLine();
     ImGui::TextDisabled("%.0f %%", 100 * costs->of(effect));
-    ui::tooltip("Share of a bake's tracing and shading, measured with the last estimate.");
+    ui::tooltip(tr("Share of a bake's tracing and shading, measured with the last estimate."));
   }
   if (effectState.overridden) {
     ImGui::SameLine();
-    ui::wrappedText(ui::palette::warning, "overridden");
+    ui::wrappedText(ui::palette::warning, tr("overridden"));
   }
   ImGui::PopID();
 }
@@ -39,18 +41,18 @@ void drawWhy(const Scene& scene) {
 void drawLighting(PanelContext& context, const Scene& scene) {
   const Project& project = context.session().project();
   const std::array<ui::Choice, 3> kLightings = {
-      ui::Choice{"Guessed", "By the file's materials, textures and meshes", true, ""},
-      ui::Choice{"In the textures", "Surfaces are shown as they are, as of a photographed or scanned place",
-                 true, ""},
-      ui::Choice{"Computed", "Lamps, sun and sky light all surfaces", true, ""}};
+      ui::Choice{tr("Guessed"), tr("By the file's materials, textures and meshes"), true, ""},
+      ui::Choice{tr("In the textures"),
+                 tr("Surfaces are shown as they are, as of a photographed or scanned place"), true, ""},
+      ui::Choice{tr("Computed"), tr("Lamps, sun and sky light all surfaces"), true, ""}};
   int lighting = int(project.import.lighting);
-  const ui::FieldEdit edit =
-      ui::choiceField("Light", kLightings, lighting, kLabelWidth, "Where the light on surfaces comes from");
+  const ui::FieldEdit edit = ui::choiceField(tr("Light"), kLightings, lighting, kLabelWidth,
+                                             tr("Where the light on surfaces comes from"));
   context.log.item("effects.lighting");
   if (edit) {
     ImportOptions import = project.import;
     import.lighting = Lighting(lighting);
-    applyFieldEdit(context, edit, setImport(project, import, "light"));
+    applyFieldEdit(context, edit, setImport(project, import, tr("light")));
   }
   drawWhy(scene);
 }
@@ -58,7 +60,7 @@ void drawLighting(PanelContext& context, const Scene& scene) {
 }  // namespace
 
 void drawEffects(PanelContext& context) {
-  if (!ui::section("Effects", false)) return;
+  if (!ui::section(tr("Effects"), false)) return;
   const auto& built = context.session().built();
   if (!built) return;
   drawLighting(context, *built->scene);
@@ -71,11 +73,11 @@ void drawEffects(PanelContext& context) {
     }
     drawEffect(context, Effect(i), state);
     ImGui::Indent(ui::scaled(24));
-    ui::wrappedText(ui::palette::faint, state.reason);
+    ui::wrappedText(ui::palette::faint, engineText(state.reason));
     ImGui::Unindent(ui::scaled(24));
   }
   if (notCalledFor == 0) return;
-  if (ImGui::TreeNode("##others", "%d not called for by this scene", notCalledFor)) {
+  if (ImGui::TreeNode("##others", trPrintf("%d not called for by this scene"), notCalledFor)) {
     for (int i = 0; i < kEffectCount; ++i) {
       const EffectState& state = built->plan[Effect(i)];
       if (!state.calledFor && !state.overridden) drawEffect(context, Effect(i), state);

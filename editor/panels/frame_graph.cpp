@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 namespace palette = ui::palette;
@@ -58,9 +60,9 @@ float drawHeader(ImDrawList& list, ImFont* font, const ImVec2& low, const ImVec2
                  const FrameTimes& times) {
   LineOfText words(list, font, {low.x + kMargin, low.y + 6}, high.x - kMargin);
   const Spread spread = times.spread();
-  words.add(palette::text, fmt::format("{} frames of the walk", spread.count));
+  words.add(palette::text, trf("{} frames of the walk", spread.count));
   if (spread.count > 0) {
-    words.add(palette::text, fmt::format("median {:.1f} ms", 1e3 * spread.median));
+    words.add(palette::text, trf("median {:.1f} ms", 1e3 * spread.median));
     words.add(palette::text, fmt::format("p99 {:.1f} ms", 1e3 * spread.p99));
   }
   LineOfText legend(list, font, {low.x + kMargin, words.bottom()}, high.x - kMargin);
@@ -121,7 +123,7 @@ void drawFrameGraph(PanelContext& context, ImDrawList& list, const ImVec2& low, 
   list.AddLine({left, bottom}, {right, bottom}, palette::border.packed());
   if (frames.empty())
     list.AddText(font, font->FontSize, {left, 0.5F * (top + bottom)}, palette::muted.packed(),
-                 "No frame yet: walk, or look around.");
+                 tr("No frame yet: walk, or look around."));
   list.PopClipRect();
 }
 

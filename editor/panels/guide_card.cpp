@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
@@ -60,26 +62,26 @@ void GuideCard::draw(PanelContext& context) {
   ImGui::Begin("##guide", nullptr, kFlags);
   ImGui::PopStyleVar();
   const GuideStep& step = guide.step();
-  ui::mutedText(fmt::format("Guided start, {} of {}", guide.index() + 1, guideSteps().size()));
+  ui::mutedText(trf("Guided start, {} of {}", guide.index() + 1, guideSteps().size()));
   ImGui::PushFont(context.window.fonts().bold);
-  ImGui::TextUnformatted(step.title);
+  ImGui::TextUnformatted(tr(step.title));
   ImGui::PopFont();
-  ui::wrappedText(ui::palette::text, step.text);
+  ui::wrappedText(ui::palette::text, tr(step.text));
   ImGui::Dummy({0, ui::scaled(2)});
   bool unwanted = context.session().preferences().guideSeen;
-  if (ui::checkBox("Do not show again", &unwanted)) context.session().preferences().guideSeen = unwanted;
+  if (ui::checkBox(tr("Do not show again"), &unwanted)) context.session().preferences().guideSeen = unwanted;
   context.log.item("guide.never");
-  ui::tooltip("At the next start. It stays in the Help menu.");
-  const bool skip = ui::button("Skip the guide");
+  ui::tooltip(tr("At the next start. It stays in the Help menu."));
+  const bool skip = ui::button(tr("Skip the guide"));
   context.log.item("guide.skip");
-  ui::tooltip("Ends it; it is in the Help menu.");
+  ui::tooltip(tr("Ends it; it is in the Help menu."));
   ImGui::SameLine();
-  const bool back = ui::button("Back", {0, 0}, !guide.first());
+  const bool back = ui::button(tr("Back"), {0, 0}, !guide.first());
   context.log.item("guide.back");
   ImGui::SameLine();
-  const bool next = ui::primaryButton(guide.last() ? "Done" : "Next");
+  const bool next = ui::primaryButton(guide.last() ? tr("Done") : tr("Next"));
   context.log.item("guide.next");
-  ui::tooltip("The guide goes on by itself once the step is done.");
+  ui::tooltip(tr("The guide goes on by itself once the step is done."));
   const ImVec2 whole = ImGui::GetWindowSize();
   const ImVec2 at = widget ? placeBeside(*widget, whole, display)
                            : ImVec2(std::max(0.0F, (display.x - whole.x) / 2), display.y * 0.3F);

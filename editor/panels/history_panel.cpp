@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -10,19 +11,19 @@ namespace {
 void drawSummary(PanelContext& context) {
   Session& session = context.session();
   const History& history = session.history();
-  std::string text = fmt::format("{} {}, {} of", ui::formatCount(history.size()),
-                                 history.size() == 1 ? "entry" : "entries", ui::formatBytes(history.bytes()));
+  std::string text = trfMany("{} entry, {} of", "{} entries, {} of", history.size(),
+                             ui::formatCount(history.size()), ui::formatBytes(history.bytes()));
   ImGui::AlignTextToFramePadding();
   ui::mutedText(text);
   if (history.dropped() > 0)
-    ui::tooltip(fmt::format("{} older entries had no room any more.", ui::formatCount(history.dropped())));
+    ui::tooltip(trf("{} older entries had no room any more.", ui::formatCount(history.dropped())));
   ImGui::SameLine(0, 6);
   int& megabytes = session.preferences().historyMegabytes;
   ImGui::SetNextItemWidth(86);
   const bool changed =
       ImGui::DragInt("##historyMemory", &megabytes, 1, 1, 1'000'000, "%d MB", ImGuiSliderFlags_AlwaysClamp);
   context.log.item("history.memory");
-  ui::tooltip("What the history may take; beyond it the oldest entries go. Remembered for all projects.");
+  ui::tooltip(tr("What the history may take; beyond it the oldest entries go. Remembered for all projects."));
   if (changed) session.historyMemoryChanged();
   if (ImGui::IsItemDeactivatedAfterEdit()) session.savePreferencesNow();
 }
@@ -47,7 +48,7 @@ void drawEntry(PanelContext& context, std::size_t entry) {
 
 void drawHistoryPanel(PanelContext& context) {
   if (!context.session().hasProject()) {
-    ui::wrappedText(ui::palette::faint, "Every edit of a project is listed here.");
+    ui::wrappedText(ui::palette::faint, tr("Every edit of a project is listed here."));
     return;
   }
   drawSummary(context);

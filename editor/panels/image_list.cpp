@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ui/theme.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -51,8 +52,8 @@ std::optional<int> drawImageList(PanelContext& context, const ImVec2& low, const
   if (ImGui::BeginChild("##images", {high.x - low.x, high.y - low.y}, false,
                         ImGuiWindowFlags_AlwaysUseWindowPadding)) {
     ImGui::PushFont(context.window.fonts().small);
-    ui::mutedText(images.empty() ? "No image is in use."
-                                 : fmt::format("{} images, painted in this order", images.size()));
+    ui::mutedText(images.empty() ? tr("No image is in use.")
+                                 : trf("{} images, painted in this order", images.size()));
     ImGui::PopFont();
     ImGui::Dummy({0, 3});
     int place = 0;

@@ -4,22 +4,26 @@
 
 #include <algorithm>
 
+#include "editor/session/engine_texts.h"
 #include "engine/bake/bake.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
 #include "ui/image_view.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
 
 constexpr float kCardEdge = 12, kPadding = 10, kLeastWidth = 212, kMostWidth = 300, kLeastPicture = 120;
 
-const char* handText(Hand hand) { return hand == Hand::counterClockwise ? "counter-clockwise" : "clockwise"; }
+const char* handText(Hand hand) {
+  return hand == Hand::counterClockwise ? tr("counter-clockwise") : tr("clockwise");
+}
 
 std::string cellText(const Layout& layout, const CameraPlace& place) {
   const Region& region = layout.regions[std::size_t(*layout.findRegion(place.cell))];
-  if (region.id.slot == kFreeSlot) return fmt::format("single APV {}", region.id.i);
-  const char* kind = region.kind == RegionKind::ring ? "ring" : "gap";
+  if (region.id.slot == kFreeSlot) return trf("single APV {}", region.id.i);
+  const char* kind = region.kind == RegionKind::ring ? tr("ring") : tr("gap");
   std::string text = fmt::format("{} ({}, {})", kind, region.id.i, region.id.j);
   if (region.covers.size() > 1)
     text += fmt::format(", {}", handText(region.covers[std::size_t(place.cover)].hand));
@@ -44,24 +48,24 @@ void LookThrough::drawText(PanelContext& context, const ColumnCamera& columns, i
   const OpenProject& open = *context.session().built();
   const LayoutCamera& of = open.layout->cameras[std::size_t(camera)];
   ImGui::PushFont(context.window.fonts().bold);
-  ImGui::TextUnformatted(sourceName(*open.layout, sourceOfCamera(camera)).c_str());
+  ImGui::TextUnformatted(engineText(sourceName(*open.layout, sourceOfCamera(camera))).c_str());
   ImGui::PopFont();
   const float right = ImGui::GetWindowContentRegionMax().x;
   ImGui::SameLine(right - 22);
   if (ui::button("×##closeCamera", {22, 0})) context.state().scene3d.lookThrough.reset();
   context.log.item("look.close");
-  ui::tooltip("Close  [Esc]");
+  ui::tooltip(tr("Close  [Esc]"));
   const auto whole = [](double radiansValue) { return std::lround(degrees(radiansValue)); };
   ImGui::PushFont(context.window.fonts().small);
   ui::mutedText(cellText(*open.layout, *place_));
-  ui::mutedText(fmt::format("sector {}° to {}°, {}° wide", whole(wrapAngle(of.lowAzimuth)),
-                            whole(wrapAngle(of.lowAzimuth)) + whole(of.fovRadians), whole(of.fovRadians)));
-  ui::mutedText(fmt::format("from {}° below to {}° above the eye", -whole(columns.bottomElevation),
-                            whole(columns.topElevation)));
+  ui::mutedText(trf("sector {}° to {}°, {}° wide", whole(wrapAngle(of.lowAzimuth)),
+                    whole(wrapAngle(of.lowAzimuth)) + whole(of.fovRadians), whole(of.fovRadians)));
+  ui::mutedText(trf("from {}° below to {}° above the eye", -whole(columns.bottomElevation),
+                    whole(columns.topElevation)));
   const auto& captures = context.session().captures();
   const bool baked = captures && captures->cameras[std::size_t(camera)];
   ui::mutedText(
-      fmt::format("{} × {} samples, {}", columns.columns, columns.rows, baked ? "baked" : "not baked yet"));
+      trf("{} × {} samples, {}", columns.columns, columns.rows, baked ? tr("baked") : tr("not baked yet")));
   ImGui::PopFont();
 }
 
@@ -149,7 +153,7 @@ std::pair<ImVec2, ImVec2> LookThrough::draw(PanelContext& context, const Preview
   ImGui::SameLine(0, 4);
   actionButton(context, "scene3d.nextCamera", ButtonLook::plain, {34, 0}, ">");
   ImGui::SameLine(0, 12);
-  actionButton(context, "scene3d.otherHand", ButtonLook::plain, {}, "Other hand");
+  actionButton(context, "scene3d.otherHand", ButtonLook::plain, {}, tr("Other hand"));
   ImGui::EndChild();
   ImGui::PopStyleColor();
   context.log.item("look");

@@ -1,5 +1,7 @@
 #include "editor/panels/messages_panel.h"
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 
 ui::Colour colourOf(MessageLevel level) {
@@ -18,7 +20,7 @@ ui::Colour colourOf(MessageLevel level) {
 
 void drawMessagesPanel(PanelContext& context) {
   if (context.session().messages().all().empty())
-    return ui::wrappedText(ui::palette::faint, "What happens is told here.");
+    return ui::wrappedText(ui::palette::faint, tr("What happens is told here."));
   ImGui::BeginChild("##lines");
   const bool atEnd = ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1;
   for (const Message& message : context.session().messages().all()) {
@@ -30,7 +32,7 @@ void drawMessagesPanel(PanelContext& context) {
         message.level == MessageLevel::info ? ui::palette::text : colourOf(message.level);
     ui::wrappedText(colour, message.text);
     if (ImGui::IsItemClicked()) ImGui::SetClipboardText(message.text.c_str());
-    ui::tooltip("Click to copy");
+    ui::tooltip(tr("Click to copy"));
   }
   const bool lit = context.now < context.state().messagesLitUntil;
   if (atEnd || lit) ImGui::SetScrollHereY(1);

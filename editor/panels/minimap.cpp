@@ -8,6 +8,7 @@
 #include "editor/overlays/plan_overlays.h"
 #include "engine/geometry/conventions.h"
 #include "ui/canvas_draw.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -68,7 +69,7 @@ void Minimap::draw(PanelContext& context, ImDrawList& list, const ImVec2& low, c
   list.AddRectFilled(low, high, palette::backdrop.withOpacity(0.9F).packed(), 4);
   list.PushClipRect(low, high, true);
   if (layout.regions.empty()) {
-    list.AddText({low.x + 10, low.y + 8}, palette::muted.packed(), "No cells.");
+    list.AddText({low.x + 10, low.y + 8}, palette::muted.packed(), tr("No cells."));
   } else {
     send(shown);
     const WalkPose& pose = context.state().walker.pose();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/contract.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -21,10 +22,11 @@ const Action& actionOf(const PanelContext& context, const char* id) {
 }
 
 std::string tooltipOf(const PanelContext& context, const Action& action) {
-  std::string text = action.label;
+  std::string text = tr(action.label);
   if (const std::string key = describe(action.shortcut); !key.empty()) text += fmt::format("  [{}]", key);
-  if (!action.help.empty()) text += "\n" + action.help;
-  if (const std::string why = whyDisabled(action, context.actions); !why.empty()) text += "\nNot now: " + why;
+  if (!action.help.empty()) text += "\n" + tr(action.help);
+  if (const std::string why = whyDisabled(action, context.actions); !why.empty())
+    text += "\n" + trf("Not now: {}", why);
   return text;
 }
 
@@ -46,7 +48,7 @@ void endButton(PanelContext& context, const Action& action, bool clicked) {
 void actionButton(PanelContext& context, const char* id, ButtonLook look, const ImVec2& size,
                   const char* label) {
   const Action& action = actionOf(context, id);
-  const std::string text = std::string(label != nullptr ? label : action.label.c_str()) + "##" + id;
+  const std::string text = std::string(label != nullptr ? label : tr(action.label.c_str())) + "##" + id;
   const bool enabled = action.enabled(context.actions);
   bool clicked = false;
   if (look == ButtonLook::toggle || look == ButtonLook::tool) {

@@ -1,6 +1,7 @@
 #include "editor/panels/paths_panel.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <array>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "editor/commands/walk_edits.h"
 #include "editor/panels/toolbar_flow.h"
 #include "engine/geometry/conventions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -31,15 +33,16 @@ void buttons(PanelContext& context, std::initializer_list<std::pair<const char*,
 
 void drawRecording(PanelContext& context) {
   const WalkRecorder& recorder = context.state().recorder;
-  actionButton(context, "walk.record", ButtonLook::toggle, {}, recorder.recording() ? "Stop" : "Record walk");
+  actionButton(context, "walk.record", ButtonLook::toggle, {},
+               recorder.recording() ? tr("Stop") : tr("Record walk"));
   ImGui::SameLine(0, kNear);
-  actionButton(context, "bookmark.add", ButtonLook::plain, {}, "Bookmark here");
+  actionButton(context, "bookmark.add", ButtonLook::plain, {}, tr("Bookmark here"));
   if (!recorder.recording()) return;
   ImGui::SameLine(0, 12);
   const double seconds = recorder.seconds(context.now);
   ImGui::AlignTextToFramePadding();
   ui::badge(ui::palette::danger,
-            seconds > 0 ? fmt::format("recording   {:.1f} s", seconds) : "walk: the first step begins it");
+            seconds > 0 ? trf("recording   {:.1f} s", seconds) : tr("walk: the first step begins it"));
   constexpr double kClockInterval = 0.1;
   context.window.pacer().requestAt(context.now + kClockInterval);
 }
@@ -66,7 +69,7 @@ void drawList(PanelContext& context) {
   const auto storeyOf = [&](int storey) {
     return storey == project.storey ? std::string() : project.storeys[std::size_t(storey)].name;
   };
-  if (!project.bookmarks.empty()) ui::mutedText("Bookmarks");
+  if (!project.bookmarks.empty()) ui::mutedText(tr("Bookmarks"));
   for (std::size_t i = 0; i < project.bookmarks.size(); ++i) {
     const Bookmark& bookmark = project.bookmarks[i];
     if (row(context, fmt::format("bookmark.{}", i), bookmark.name, storeyOf(bookmark.storey),
@@ -74,7 +77,7 @@ void drawList(PanelContext& context) {
         ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
       return goToBookmark(context.actions, i);
   }
-  if (!project.paths.empty()) ui::mutedText("Paths");
+  if (!project.paths.empty()) ui::mutedText(tr("Paths"));
   for (std::size_t i = 0; i < project.paths.size(); ++i) {
     const WalkPath& path = project.paths[i];
     const std::string storey = storeyOf(path.storey);
@@ -96,20 +99,20 @@ void drawName(PanelContext& context, const std::string& current,
   ImGui::PopID();
   context.log.item("walks.name");
   const bool renamed = ImGui::IsItemDeactivatedAfterEdit() && current != name.data();
-  ui::tooltip("Its name: type another");
+  ui::tooltip(tr("Its name: type another"));
   if (renamed) context.session().apply(rename(context.session().project(), number, name.data()));
 }
 
 void drawBookmark(PanelContext& context, const Bookmark& bookmark) {
-  const std::string where = fmt::format(
-      "({:.2f}, {:.2f}, {:.2f}) m   {:.0f}°, {:.0f}° up   view {:.0f}°", bookmark.eye.x, bookmark.eye.y,
-      bookmark.eye.z, degrees(bookmark.yawRadians), degrees(bookmark.pitchRadians), bookmark.fovDegrees);
+  const std::string where =
+      trf("({:.2f}, {:.2f}, {:.2f}) m   {:.0f}°, {:.0f}° up   view {:.0f}°", bookmark.eye.x, bookmark.eye.y,
+          bookmark.eye.z, degrees(bookmark.yawRadians), degrees(bookmark.pitchRadians), bookmark.fovDegrees);
   drawName(context, bookmark.name, renameBookmark);
-  buttons(context, {{"bookmark.go", "Go"},
-                    {"bookmark.update", "Move here"},
+  buttons(context, {{"bookmark.go", tr("Go")},
+                    {"bookmark.update", tr("Move here")},
                     {"walks.up", "↑"},
                     {"walks.down", "↓"},
-                    {"walks.remove", "Remove"}});
+                    {"walks.remove", tr("Remove")}});
   ui::wrappedText(ui::palette::muted, where);
 }
 
@@ -126,7 +129,7 @@ void drawSpeed(PanelContext& context) {
     }
     ImGui::EndCombo();
   } else {
-    ui::tooltip("How fast it is played");
+    ui::tooltip(tr("How fast it is played"));
   }
 }
 
@@ -135,17 +138,18 @@ void drawTransport(PanelContext& context, const WalkPath& path) {
   {
     const AsTallAsIcons tall(context);
     actionIcon(context, "path.play", replay.playing() ? ui::Icon::pause : ui::Icon::play, ButtonLook::plain,
-               replay.playing() ? "Pause" : "Play");
+               replay.playing() ? tr("Pause") : tr("Play"));
     ImGui::SameLine(0, kNear);
-    actionIcon(context, "path.stop", ui::Icon::stop, ButtonLook::plain, "Stop");
+    actionIcon(context, "path.stop", ui::Icon::stop, ButtonLook::plain, tr("Stop"));
     ImGui::SameLine(0, kNear);
-    actionIcon(context, "path.loop", ui::Icon::repeat, ButtonLook::toggle, "Loop");
+    actionIcon(context, "path.loop", ui::Icon::repeat, ButtonLook::toggle, tr("Loop"));
     ImGui::SameLine(0, kNear);
     drawSpeed(context);
   }
   float seconds = float(replay.at());
   ImGui::SetNextItemWidth(-1);
-  const std::string format = fmt::format("%.1f of {:.1f} s", path.path.seconds());
+  std::string format = trf("{} of {:.1f} s", "%.1f", path.path.seconds());
+  if (std::ranges::count(format, '%') != 1) format = "%.1f s";  // a damaged catalogue
   const bool moved = ImGui::SliderFloat("##time", &seconds, 0, float(path.path.seconds()), format.c_str(),
                                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput);
   context.log.item("path.time");
@@ -155,36 +159,38 @@ void drawTransport(PanelContext& context, const WalkPath& path) {
 void drawPath(PanelContext& context, const WalkPath& path) {
   drawName(context, path.name, renamePath);
   drawTransport(context, path);
-  buttons(context,
-          {{"walks.up", "↑"}, {"walks.down", "↓"}, {"walks.remove", "Remove"}, {"path.export", "Export…"}});
+  buttons(context, {{"walks.up", "↑"},
+                    {"walks.down", "↓"},
+                    {"walks.remove", tr("Remove")},
+                    {"path.export", tr("Export…")}});
   const OpenProject& open = *context.session().built();
   const int outside = path.storey == open.project.storey ? posesOutside(path, open) : 0;
   if (outside > 0)
     ui::wrappedText(ui::palette::warning,
-                    fmt::format("{} of {} key poses stand where one cannot walk (red on the plan)", outside,
-                                path.path.poses.size()));
+                    trf("{} of {} key poses stand where one cannot walk (red on the plan)", outside,
+                        path.path.poses.size()));
   else
-    ui::mutedText(fmt::format("{} key poses", path.path.poses.size()));
+    ui::mutedText(trf("{} key poses", path.path.poses.size()));
   if (!context.state().replayReport.empty())
-    ui::wrappedText(ui::palette::muted, "Replay: " + context.state().replayReport);
+    ui::wrappedText(ui::palette::muted, trf("Replay: {}", context.state().replayReport));
 }
 
 }  // namespace
 
 void drawPathsPanel(PanelContext& context) {
   if (!context.session().built()) {
-    ui::wrappedText(ui::palette::faint, "Walks and places of an open project are kept here.");
+    ui::wrappedText(ui::palette::faint, tr("Walks and places of an open project are kept here."));
     return;
   }
   drawRecording(context);
   const Project& project = context.session().project();
   if (project.bookmarks.empty() && project.paths.empty()) {
     if (context.session().shippedWalk())
-      return ui::wrappedText(ui::palette::muted, "This walk has neither bookmarks nor paths.");
+      return ui::wrappedText(ui::palette::muted, tr("This walk has neither bookmarks nor paths."));
     ui::wrappedText(
         ui::palette::muted,
-        "Press Record walk (Ctrl+R), walk with W A S D, and press it again: the walk becomes a path to "
-        "play, change and measure. Bookmark here (Ctrl+Shift+B) keeps the view to come back to.");
+        tr("Press Record walk (Ctrl+R), walk with W A S D, and press it again: the walk becomes a path to "
+           "play, change and measure. Bookmark here (Ctrl+Shift+B) keeps the view to come back to."));
     return;
   }
   const float width = std::floor(0.42F * ImGui::GetContentRegionAvail().x);
@@ -200,7 +206,7 @@ void drawPathsPanel(PanelContext& context) {
   else if (const WalkPath* path = selected.path(context.session().project()))
     drawPath(context, WalkPath(*path));
   else
-    ui::wrappedText(ui::palette::faint, "Click a bookmark or a path.");
+    ui::wrappedText(ui::palette::faint, tr("Click a bookmark or a path."));
   ImGui::EndChild();
 }
 

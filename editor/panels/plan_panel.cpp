@@ -15,10 +15,12 @@
 #include "editor/overlays/walk_overlay.h"
 #include "editor/panels/array_panel.h"
 #include "editor/panels/plan_toolbar.h"
+#include "editor/session/engine_texts.h"
 #include "editor/session/scene_view.h"
 #include "engine/geometry/conventions.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -44,8 +46,8 @@ void PlanPanel::followEye(const EditorState& state) {
 }
 
 void PlanPanel::drawCounts(ImDrawList& list, const Layout& layout, ImFont* font) const {
-  const std::string text = fmt::format("{} regions, {} cameras", ui::formatCount(layout.regions.size()),
-                                       ui::formatCount(layout.cameras.size()));
+  const std::string text = trf("{} regions, {} cameras", ui::formatCount(layout.regions.size()),
+                               ui::formatCount(layout.cameras.size()));
   const float width = font->CalcTextSizeA(font->FontSize, 1000, 0, text.c_str()).x;
   const ImVec2 corner =
       ui::imVec(view_.areaMin() + glm::dvec2(view_.areaSize().x, double(ui::scaled(ui::kRulerPixels))));
@@ -69,7 +71,7 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
                   std::size_t(session.project().budget.trianglesPerRegion)});
   if (!layers_.problem().empty() && !std::exchange(problemTold_, true))
     session.messages().add(MessageLevel::error,
-                           "The plan cannot be drawn on this OpenGL. " + layers_.problem());
+                           trf("The plan cannot be drawn on this OpenGL. {}", layers_.problem()));
   if (tried) {
     LayoutSpec wanted = state.trial.value_or(spec);
     if (!state.trial) placeLattice(wanted, state.planTool.latticeTool().place());
@@ -234,7 +236,7 @@ void PlanPanel::drawTools(PanelContext& context, ImDrawList& list) {
     ghost_.draw(list, view_);
     if (ghost_.blocked() > 0)
       ui::drawLabel(list, font, ui::imVec(pointer_ + glm::dvec2(16, 14)), ui::palette::danger,
-                    fmt::format("{} of {} places taken", ghost_.blocked(), ghost_.places()).c_str());
+                    trf("{} of {} places taken", ghost_.blocked(), ghost_.places()).c_str());
   } else {
     ghost_.clear();
   }
@@ -263,11 +265,10 @@ void PlanPanel::tellHovered(PanelContext& context, ImDrawList& list,
     const PlacementFinding* finding =
         drawFindings(list, view_, inspection->placement, pointing ? pointer_ : glm::dvec2(-1e9));
     if (finding == nullptr) return;
-    std::string text = finding->reason;
+    std::string text = engineText(finding->reason);
     if (finding->push)
-      text += fmt::format("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).",
-                          glm::length(*finding->push), finding->place.x + finding->push->x,
-                          finding->place.y + finding->push->y);
+      text += trf("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).", glm::length(*finding->push),
+                  finding->place.x + finding->push->x, finding->place.y + finding->push->y);
     return ui::tooltip(text);
   }
   if (!pointing) return;
@@ -278,18 +279,16 @@ void PlanPanel::tellHovered(PanelContext& context, ImDrawList& list,
   if (!region) return;
   const auto r = std::size_t(*region);
   if (state.overlay == PlanOverlay::triangles && inspection)
-    ui::tooltip(
-        fmt::format("{} triangles of local geometry", ui::formatCount(inspection->budgets.triangles[r])));
+    ui::tooltip(trf("{} triangles of local geometry", ui::formatCount(inspection->budgets.triangles[r])));
   if (state.overlay == PlanOverlay::bytes && r < layers_.bytes().size())
-    ui::tooltip(fmt::format("{} on disk, in the captures of {} cameras", ui::formatBytes(layers_.bytes()[r]),
-                            camerasOf(layout.regions[r]).size()));
+    ui::tooltip(trf("{} on disk, in the captures of {} cameras", ui::formatBytes(layers_.bytes()[r]),
+                    camerasOf(layout.regions[r]).size()));
   if (state.overlay == PlanOverlay::bake && r < layers_.states().size() && session.captures()) {
     const std::vector<int> cameras = camerasOf(layout.regions[r]);
     const auto& baked = session.captures()->cameras;
     const auto there = std::ranges::count_if(
         cameras, [&](int c) { return std::size_t(c) < baked.size() && baked[std::size_t(c)]; });
-    ui::tooltip(
-        fmt::format("{}: {} of {} captures on disk", nameOf(layers_.states()[r]), there, cameras.size()));
+    ui::tooltip(trf("{}: {} of {} captures on disk", nameOf(layers_.states()[r]), there, cameras.size()));
   }
 }
 

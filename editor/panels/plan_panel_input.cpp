@@ -9,6 +9,7 @@
 #include "editor/panels/plan_panel.h"
 #include "ui/canvas_draw.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -102,8 +103,8 @@ void PlanPanel::fulfilWish(PanelContext& context) {
                         : overBudget(*inspection->layout, inspection->budgets, most);
   if (state.selection.empty())
     context.session().messages().add(MessageLevel::good, wish == SelectionWish::withWarnings
-                                                             ? "No cell has a warning"
-                                                             : "No cell is over the budget");
+                                                             ? tr("No cell has a warning")
+                                                             : tr("No cell is over the budget"));
 }
 
 }  // namespace acentric::editor

@@ -8,6 +8,7 @@
 #include "editor/tools/walker.h"
 #include "engine/geometry/conventions.h"
 #include "engine/pipeline/walk_ground.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -35,25 +36,25 @@ void drawPoseSection(PanelContext& context, float labelWidth) {
   const WalkPath walk = *selected.path(context.session().project());
   const PathPose pose = walk.path.poses[*which];
   const std::string title =
-      fmt::format("Key pose {} of {}, {}###pose", *which + 1, walk.path.poses.size(), walk.name);
+      trf("Key pose {} of {}, {}###pose", *which + 1, walk.path.poses.size(), walk.name);
   if (!ui::section(title.c_str())) return;
   number(context, "x", {"x", "%.3f m", 0.01, -1e7, 1e7}, labelWidth, pose.eye.x,
          [](PathPose& p, double v) { p.eye.x = v; });
   number(context, "y", {"y", "%.3f m", 0.01, -1e7, 1e7}, labelWidth, pose.eye.y,
          [](PathPose& p, double v) { p.eye.y = v; });
-  number(context, "z", {"z", "%.3f m", 0.005, -1e7, 1e7, "Height of the eye, from the scene's zero."},
+  number(context, "z", {"z", "%.3f m", 0.005, -1e7, 1e7, tr("Height of the eye, from the scene's zero.")},
          labelWidth, pose.eye.z, [](PathPose& p, double v) { p.eye.z = v; });
-  number(context, "yaw", {"Looks towards", "%.1f°", 0.3, -360, 360, "Counter-clockwise from +x."}, labelWidth,
-         degrees(pose.yawRadians), [](PathPose& p, double v) { p.yawRadians = radians(v); });
-  number(context, "pitch", {"Looks up", "%.1f°", 0.3, -83, 83, "Degrees above the horizon."}, labelWidth,
-         degrees(pose.pitchRadians), [](PathPose& p, double v) { p.pitchRadians = radians(v); });
-  number(
-      context, "seconds",
-      {"At", "%.2f s", 0.02, 0, kMostPathSeconds, "Between the times of its neighbours; the first is at 0."},
-      labelWidth, pose.seconds, [](PathPose& p, double v) { p.seconds = v; });
+  number(context, "yaw", {tr("Looks towards"), "%.1f°", 0.3, -360, 360, tr("Counter-clockwise from +x.")},
+         labelWidth, degrees(pose.yawRadians), [](PathPose& p, double v) { p.yawRadians = radians(v); });
+  number(context, "pitch", {tr("Looks up"), "%.1f°", 0.3, -83, 83, tr("Degrees above the horizon.")},
+         labelWidth, degrees(pose.pitchRadians), [](PathPose& p, double v) { p.pitchRadians = radians(v); });
+  number(context, "seconds",
+         {tr("At"), "%.2f s", 0.02, 0, kMostPathSeconds,
+          tr("Between the times of its neighbours; the first is at 0.")},
+         labelWidth, pose.seconds, [](PathPose& p, double v) { p.seconds = v; });
   const auto& built = context.session().built();
   if (built && built->project.storey == walk.storey && !built->ground->holds(walk.storey, pose.eye))
-    ui::wrappedText(ui::palette::warning, "One cannot walk here: a replay goes as near as it can.");
+    ui::wrappedText(ui::palette::warning, tr("One cannot walk here: a replay goes as near as it can."));
 }
 
 }  // namespace acentric::editor

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "editor/actions/problem_actions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -18,12 +19,13 @@ void drawFix(PanelContext& context, const ProblemFix& fix, int row) {
   ImGui::EndDisabled();
   context.log.item(fmt::format("problem.{}.fix", row));
   if (fix.metresPerUnit)
-    ui::tooltip("Imports the model again at this scale; cells, outline and paths stay where they are on it");
+    ui::tooltip(
+        tr("Imports the model again at this scale; cells, outline and paths stay where they are on it"));
   else if (action == nullptr)
-    ui::tooltip(fix.freeApv ? "The smallest move that clears it"
-                            : "The smallest move that clears it; all cells of the lattice go along");
+    ui::tooltip(fix.freeApv ? tr("The smallest move that clears it")
+                            : tr("The smallest move that clears it; all cells of the lattice go along"));
   else if (!action->help.empty())
-    ui::tooltip(action->help);
+    ui::tooltip(tr(action->help));
   if (!clicked || !possible) return;
   if (action != nullptr)
     runAction(context, *action);
@@ -42,7 +44,7 @@ void drawRow(PanelContext& context, const Problem& problem, int row, bool beside
   if (beside) ImGui::TableNextColumn();
   ImGui::PushID(row);
   if (problem.place.any()) {
-    if (ImGui::SmallButton("Show")) showProblem(context.state(), problem.place);
+    if (ImGui::SmallButton(tr("Show"))) showProblem(context.state(), problem.place);
     context.log.item(fmt::format("problem.{}.show", row));
     if (problem.fix) ImGui::SameLine(0, 6);
   }
@@ -76,8 +78,8 @@ void drawProblemsPanel(PanelContext& context) {
   const std::vector<Problem> problems = context.session().problems();
   if (problems.empty()) {
     ui::wrappedText(ui::palette::faint, context.session().hasProject()
-                                            ? "Nothing is wrong."
-                                            : "What is wrong with a project is listed here.");
+                                            ? tr("Nothing is wrong.")
+                                            : tr("What is wrong with a project is listed here."));
     return;
   }
   constexpr ImGuiTableFlags kFlags =

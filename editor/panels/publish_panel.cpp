@@ -5,6 +5,7 @@
 
 #include "editor/panels/bake_panel.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -35,12 +36,13 @@ bool textField(PanelContext& context, const char* label, const char* hint, std::
 
 void drawPlace(PanelContext& context) {
   PublishDraft& draft = context.state().publishDraft;
-  textField(context, "Folder", "", draft.folder, "publish.folder",
-            "It is made, or replaced as a whole if it holds nothing but what was published before.");
-  ui::checkField("One file", draft.oneFile, kPublishLabelWidth,
-                 "The walk as one file beside the page, read by ranges, in place of hundreds of files.");
+  textField(context, tr("Folder"), "", draft.folder, "publish.folder",
+            tr("It is made, or replaced as a whole if it holds nothing but what was published before."));
+  ui::checkField(tr("One file"), draft.oneFile, kPublishLabelWidth,
+                 tr("The walk as one file beside the page, read by ranges, in place of hundreds of files."));
   context.log.item("publish.oneFile");
-  ui::checkField("Open the browser", draft.openBrowser, kPublishLabelWidth, "As soon as it is published.");
+  ui::checkField(tr("Open the browser"), draft.openBrowser, kPublishLabelWidth,
+                 tr("As soon as it is published."));
   context.log.item("publish.openBrowser");
 }
 
@@ -48,13 +50,12 @@ void drawPlace(PanelContext& context) {
 bool drawGaps(PanelContext& context, const BakeGaps& gaps) {
   ImGui::Dummy({0, ui::scaled(4)});
   ui::wrappedText(ui::palette::warning,
-                  gaps.all()
-                      ? "Nothing is baked yet, so there is nothing to publish."
-                      : fmt::format("{}. Where captures are missing, the published walk has holes or shows "
-                                    "previews.",
-                                    gaps.describe()));
+                  gaps.all() ? tr("Nothing is baked yet, so there is nothing to publish.")
+                             : trf("{}. Where captures are missing, the published walk has holes or shows "
+                                   "previews.",
+                                   gaps.describe()));
   bool close = false;
-  if (ui::primaryButton("Bake first")) {
+  if (ui::primaryButton(tr("Bake first"))) {
     if (const Action* bake = findAction(context.table, std::string("bake.start"))) runAction(context, *bake);
     context.session().publishing().forgetAnswers();
     close = true;
@@ -62,7 +63,7 @@ bool drawGaps(PanelContext& context, const BakeGaps& gaps) {
   context.log.item("publish.bake");
   if (!gaps.all()) {
     ImGui::SameLine();
-    if (ui::button("Publish what there is"))
+    if (ui::button(tr("Publish what there is")))
       context.session().publish(placeOf(context.state().publishDraft), true);
     context.log.item("publish.anyway");
   }
@@ -72,32 +73,30 @@ bool drawGaps(PanelContext& context, const BakeGaps& gaps) {
 void drawSizes(const Published& published) {
   const PublishReport& report = published.report;
   const BundleReport& bundle = report.bundle;
-  ui::keyValue("Published",
-               fmt::format("{} in {} {}, in {}", megabytes(report.bytes), report.files,
-                           report.files == 1 ? "file" : "files", ui::formatDuration(published.seconds)),
+  ui::keyValue(tr("Published"),
+               trfMany("{} in {} file, in {}", "{} in {} files, in {}", std::uint64_t(report.files),
+                       megabytes(report.bytes), report.files, ui::formatDuration(published.seconds)),
                kPublishLabelWidth);
   ui::tooltip(published.place.folder.string());
   ui::keyValue(
-      "Captures",
-      fmt::format("{}, coarse ones {}{}", megabytes(bundle.fullBytes), megabytes(bundle.coarseBytes),
-                  bundle.reused > 0 ? fmt::format("; {} of {} as they were", bundle.reused, bundle.cameras)
-                                    : std::string()),
+      tr("Captures"),
+      trf("{}, coarse ones {}{}", megabytes(bundle.fullBytes), megabytes(bundle.coarseBytes),
+          bundle.reused > 0 ? trf("; {} of {} as they were", bundle.reused, bundle.cameras) : std::string()),
       kPublishLabelWidth);
-  ui::keyValue(
-      "Near geometry",
-      fmt::format("{}, its textures {}", megabytes(bundle.localBytes), megabytes(bundle.textureBytes)),
-      kPublishLabelWidth);
+  ui::keyValue(tr("Near geometry"),
+               trf("{}, its textures {}", megabytes(bundle.localBytes), megabytes(bundle.textureBytes)),
+               kPublishLabelWidth);
   const std::uint64_t parts = bundle.fullBytes + bundle.coarseBytes + bundle.localBytes + bundle.textureBytes;
   if (report.walk.empty())
-    ui::keyValue("Index and page",
+    ui::keyValue(tr("Index and page"),
                  fmt::format("{}, {}", megabytes(bundle.indexBytes),
                              megabytes(report.bytes - std::min(report.bytes, parts + bundle.indexBytes))),
                  kPublishLabelWidth);
   else
-    ui::keyValue("Index and page", megabytes(report.bytes - std::min(report.bytes, parts)),
+    ui::keyValue(tr("Index and page"), megabytes(report.bytes - std::min(report.bytes, parts)),
                  kPublishLabelWidth);
   if (bundle.missing > 0)
-    ui::keyValue("Not baked", fmt::format("{} of {} captures", bundle.missing, bundle.cameras),
+    ui::keyValue(tr("Not baked"), trf("{} of {} captures", bundle.missing, bundle.cameras),
                  kPublishLabelWidth);
 }
 
@@ -105,9 +104,9 @@ void drawSizes(const Published& published) {
 void drawLinks(PanelContext& context) {
   PublishDraft& draft = context.state().publishDraft;
   const bool typed =
-      textField(context, "Public address", "https://…, where you copy the folder to; optional",
+      textField(context, tr("Public address"), tr("https://…, where you copy the folder to; optional"),
                 draft.publicAddress, "publish.publicAddress",
-                "Links that are copied here begin with it, in place of this machine's address.");
+                tr("Links that are copied here begin with it, in place of this machine's address."));
   const auto checked = checkPublicAddress(draft.publicAddress);
   if (!checked) ui::wrappedText(ui::palette::danger, checked.error().describe());
   if (typed && checked) {
@@ -115,33 +114,33 @@ void drawLinks(PanelContext& context) {
     place.publicAddress = *checked;
     context.session().keepPublishPlace(place);
   }
-  actionButton(context, "publish.copyView", ButtonLook::plain, {}, "Copy link to this view");
+  actionButton(context, "publish.copyView", ButtonLook::plain, {}, tr("Copy link to this view"));
   ImGui::SameLine();
-  actionButton(context, "publish.copyStart", ButtonLook::plain, {}, "Copy link to the start");
+  actionButton(context, "publish.copyStart", ButtonLook::plain, {}, tr("Copy link to the start"));
 }
 
 void drawServer(PanelContext& context) {
   Publisher& publishing = context.session().publishing();
   if (!publishing.serving()) {
-    ui::keyValue("Address", "not served", kPublishLabelWidth);
-    if (ui::button("Serve it")) publishing.serve();
+    ui::keyValue(tr("Address"), tr("not served"), kPublishLabelWidth);
+    if (ui::button(tr("Serve it"))) publishing.serve();
     context.log.item("publish.serve");
     return;
   }
-  ui::keyValue("Address", publishing.address(), kPublishLabelWidth);
+  ui::keyValue(tr("Address"), publishing.address(), kPublishLabelWidth);
   context.log.item("publish.address");
-  ui::tooltip("On this machine alone. To show it to others, copy the folder to a web server.");
+  ui::tooltip(tr("On this machine alone. To show it to others, copy the folder to a web server."));
   const auto load = publishing.lastLoad();
-  ui::keyValue("First frame",
-               load ? fmt::format("after {:.1f} s and {}, {} requests", load->seconds, megabytes(load->bytes),
-                                  load->requests)
-                    : std::string("not seen yet"),
-               kPublishLabelWidth);
-  ui::tooltip("Of the page that was opened from here last; text is sent compressed.");
+  ui::keyValue(
+      tr("First frame"),
+      load ? trf("after {:.1f} s and {}, {} requests", load->seconds, megabytes(load->bytes), load->requests)
+           : std::string(tr("not seen yet")),
+      kPublishLabelWidth);
+  ui::tooltip(tr("Of the page that was opened from here last; text is sent compressed."));
   context.log.item(load ? "publish.loaded" : "publish.notLoaded");
-  actionButton(context, "publish.open", ButtonLook::plain, {}, "Open in browser");
+  actionButton(context, "publish.open", ButtonLook::plain, {}, tr("Open in browser"));
   ImGui::SameLine();
-  actionButton(context, "publish.stop", ButtonLook::plain, {}, "Stop serving");
+  actionButton(context, "publish.stop", ButtonLook::plain, {}, tr("Stop serving"));
 }
 
 }  // namespace
@@ -153,7 +152,7 @@ void drawPublishDialog(PanelContext& context, const DialogKeys& keys) {
     context.state().dialog = Dialog::none;
     return;
   }
-  if (!beginDialog("Publish", 660)) return;
+  if (!beginDialog(trLater("Publish"), 660)) return;
   const bool running = publishing.job().running();
   ImGui::BeginDisabled(running);
   drawPlace(context);
@@ -177,16 +176,17 @@ void drawPublishDialog(PanelContext& context, const DialogKeys& keys) {
     drawLinks(context);
   }
   alignButtons(2);
-  close = ui::button("Close", {dialogButtonWidth(), 0}) || close;
+  close = ui::button(tr("Close"), {dialogButtonWidth(), 0}) || close;
   context.log.item("dialog.close");
   ImGui::SameLine();
   if (running) {
-    if (ui::button("Cancel", {dialogButtonWidth(), 0}, !publishing.job().cancelling())) publishing.cancel();
+    if (ui::button(tr("Cancel"), {dialogButtonWidth(), 0}, !publishing.job().cancelling()))
+      publishing.cancel();
     context.log.item("publish.cancel");
   } else {
     const bool ready = std::filesystem::path(context.state().publishDraft.folder).is_absolute() &&
                        !session.rebuilding().running();
-    const char* const label = publishing.published() ? "Publish again" : "Publish";
+    const char* const label = publishing.published() ? tr("Publish again") : tr("Publish");
     const ImVec2 size = {dialogButtonWidth(), 0};
     // While it asks, the answer is what the dialog is for.
     const bool begin =

@@ -7,6 +7,7 @@
 
 #include "editor/overlays/bake_signs.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -15,13 +16,13 @@ namespace palette = ui::palette;
 
 constexpr std::array<std::pair<const char*, RegionColumn>, 8> kColumns{
     {{"##light", RegionColumn::budget},
-     {"Region", RegionColumn::name},
-     {"Kind", RegionColumn::kind},
-     {"Triangles", RegionColumn::triangles},
-     {"Cameras", RegionColumn::cameras},
-     {"On disk", RegionColumn::bytes},
-     {"Holes", RegionColumn::holes},
-     {"Baked", RegionColumn::state}}};
+     {trLater("Region"), RegionColumn::name},
+     {trLater("Kind"), RegionColumn::kind},
+     {trLater("Triangles"), RegionColumn::triangles},
+     {trLater("Cameras"), RegionColumn::cameras},
+     {trLater("On disk"), RegionColumn::bytes},
+     {trLater("Holes"), RegionColumn::holes},
+     {trLater("Baked"), RegionColumn::state}}};
 constexpr std::array<float, 8> kWidths{20, 68, 88, 68, 70, 60, 48, 72};
 
 /// A sign of its own for each: a check mark, an exclamation mark in a triangle, a cross.
@@ -34,20 +35,20 @@ void drawLight(BudgetLight light) {
   switch (light) {
     case BudgetLight::unknown:
       list.AddLine({at.x - 4, at.y}, {at.x + 4, at.y}, palette::faint.packed(), 1.5F);
-      return ui::tooltip("No budget is set, or its triangles are being counted.");
+      return ui::tooltip(tr("No budget is set, or its triangles are being counted."));
     case BudgetLight::within:
       drawBakeSign(list, at, BakeState::baked, 6);
-      return ui::tooltip("Within the budget");
+      return ui::tooltip(tr("Within the budget"));
     case BudgetLight::near: {
       const ImU32 ink = palette::warning.packed();
       list.AddTriangle({at.x, at.y - 6.5F}, {at.x + 7, at.y + 5.5F}, {at.x - 7, at.y + 5.5F}, ink, 1.6F);
       list.AddLine({at.x, at.y - 2.5F}, {at.x, at.y + 1.5F}, ink, 1.5F);
       list.AddCircleFilled({at.x, at.y + 3.6F}, 0.9F, ink);
-      return ui::tooltip("Above four fifths of the budget");
+      return ui::tooltip(tr("Above four fifths of the budget"));
     }
     case BudgetLight::over:
       drawBakeSign(list, at, BakeState::failed, 6);
-      return ui::tooltip("Over the budget");
+      return ui::tooltip(tr("Over the budget"));
   }
 }
 
@@ -86,17 +87,16 @@ void RegionTablePanel::drawHead(PanelContext& context) {
   const auto budget = std::size_t(session.project().budget.trianglesPerRegion);
   const auto over = std::ranges::count_if(
       rows_, [&](const RegionRow& row) { return lightOf(row, budget) == BudgetLight::over; });
-  std::string text = fmt::format("{} regions", ui::formatCount(rows_.size()));
-  if (!inspection_) text += ", counting triangles";
+  std::string text = trf("{} regions", ui::formatCount(rows_.size()));
+  if (!inspection_) text += tr(", counting triangles");
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.c_str());
   ImGui::SameLine(0, 14);
   if (budget == 0)
-    ui::mutedText("no triangle budget is set");
+    ui::mutedText(tr("no triangle budget is set"));
   else
-    ui::badge(
-        over > 0 ? palette::danger : palette::good,
-        fmt::format("{} over {} triangles", ui::formatCount(std::uint64_t(over)), ui::formatCount(budget)));
+    ui::badge(over > 0 ? palette::danger : palette::good,
+              trf("{} over {} triangles", ui::formatCount(std::uint64_t(over)), ui::formatCount(budget)));
 }
 
 void RegionTablePanel::drawRow(PanelContext& context, const RegionRow& row, std::size_t budget) {
@@ -127,7 +127,7 @@ void RegionTablePanel::drawRow(PanelContext& context, const RegionRow& row, std:
   ImGui::TableNextColumn();
   rightText(std::to_string(row.cameras));
   ImGui::TableNextColumn();
-  rightText(row.bytes > 0 ? ui::formatBytes(row.bytes) : "none",
+  rightText(row.bytes > 0 ? ui::formatBytes(row.bytes) : tr("none"),
             row.bytes > 0 ? palette::text : palette::faint);
   ImGui::TableNextColumn();
   rightText(row.holes ? ui::formatPercent(*row.holes) : "–", row.holes ? palette::text : palette::faint);
@@ -150,21 +150,24 @@ void RegionTablePanel::drawRows(PanelContext& context, float height) {
     ImGuiTableColumnFlags flags =
         ImGuiTableColumnFlags_PreferSortDescending | ImGuiTableColumnFlags_WidthFixed;
     if (kColumns[c].second == RegionColumn::triangles) flags |= ImGuiTableColumnFlags_DefaultSort;
-    ImGui::TableSetupColumn(kColumns[c].first, flags, kWidths[c], ImGuiID(c));
+    const char* const label = tr(kColumns[c].first);
+    const float width = std::max(kWidths[c], ImGui::CalcTextSize(label, nullptr, true).x + 2);
+    ImGui::TableSetupColumn(label, flags, width, ImGuiID(c));
   }
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
     ImGui::TableSetColumnIndex(int(c));
-    ImGui::TableHeader(kColumns[c].first);
+    ImGui::TableHeader(tr(kColumns[c].first));
     context.log.item(fmt::format("table.column{}", c));
     if (kColumns[c].second == RegionColumn::triangles)
-      ui::tooltip("Of local geometry: within the region and its near band.");
+      ui::tooltip(tr("Of local geometry: within the region and its near band."));
     if (kColumns[c].second == RegionColumn::holes)
       ui::tooltip(
-          "Predicted share of what is seen from the region that no capture shows; known while the "
-          "overlay is the coverage of surfaces.");
+          tr("Predicted share of what is seen from the region that no capture shows; known while the "
+             "overlay is the coverage of surfaces."));
     if (kColumns[c].second == RegionColumn::bytes)
-      ui::tooltip("Of the captures that the region shows; one that serves several regions counts for each.");
+      ui::tooltip(
+          tr("Of the captures that the region shows; one that serves several regions counts for each."));
   }
   if (ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs(); specs != nullptr && specs->SpecsCount > 0) {
     column_ = kColumns[specs->Specs[0].ColumnUserID].second;
@@ -194,11 +197,11 @@ void RegionTablePanel::draw(PanelContext& context, const ImVec2& at, const ImVec
     drawHead(context);
     const float foot = ImGui::GetFrameHeightWithSpacing();
     drawRows(context, std::max(40.0F, ImGui::GetContentRegionAvail().y - foot));
-    actionButton(context, "budget.fit", ButtonLook::plain, {}, "Fit to budget");
+    actionButton(context, "budget.fit", ButtonLook::plain, {}, tr("Fit to budget"));
     ImGui::SameLine();
-    actionButton(context, "budget.split", ButtonLook::plain, {}, "Split");
+    actionButton(context, "budget.split", ButtonLook::plain, {}, tr("Split"));
     ImGui::SameLine();
-    actionButton(context, "edit.selectOverBudget", ButtonLook::plain, {}, "Select what is over");
+    actionButton(context, "edit.selectOverBudget", ButtonLook::plain, {}, tr("Select what is over"));
   }
   ImGui::EndChild();
   ImGui::PopStyleVar();

@@ -1,5 +1,8 @@
 #include "editor/panels/report_panel.h"
 
+#include "editor/session/engine_texts.h"
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
@@ -7,24 +10,24 @@ void lines(const char* heading, const std::vector<std::string>& entries, const u
   for (const std::string& entry : entries) {
     ui::badge(colour, heading);
     ImGui::SameLine(ui::scaled(92));
-    ui::wrappedText(ui::palette::text, entry);
+    ui::wrappedText(ui::palette::text, engineText(entry));
   }
 }
 
 }  // namespace
 
 void drawReportPanel(PanelContext& context) {
-  ui::panelTitle(context.window.fonts().bold, "Scene");
+  ui::panelTitle(context.window.fonts().bold, tr("Scene"));
   const auto& built = context.session().built();
   if (!built) {
-    ui::wrappedText(ui::palette::faint, "What is found in a model is told here.");
+    ui::wrappedText(ui::palette::faint, tr("What is found in a model is told here."));
     return;
   }
   const Scene& scene = *built->scene;
-  lines("found", scene.report.found, ui::palette::good);
-  lines("guessed", scene.report.guessed, ui::palette::accent);
-  lines("dropped", scene.report.dropped, ui::palette::warning);
-  lines("ignored", scene.report.ignored, ui::palette::faint);
+  lines(tr("found"), scene.report.found, ui::palette::good);
+  lines(tr("guessed"), scene.report.guessed, ui::palette::accent);
+  lines(tr("dropped"), scene.report.dropped, ui::palette::warning);
+  lines(tr("ignored"), scene.report.ignored, ui::palette::faint);
 }
 
 }  // namespace acentric::editor

@@ -3,11 +3,13 @@
 
 #include "editor/overlays/pick_table.h"
 #include "editor/panels/scene_panel.h"
+#include "editor/session/engine_texts.h"
 #include "editor/tools/scene_hits.h"
 #include "engine/geometry/conventions.h"
 #include "engine/measure/source_colours.h"
 #include "ui/canvas_draw.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -71,7 +73,7 @@ void ScenePanel::drawLayers(PanelContext& context, ImDrawList& list) {
   if (!session.shippedWalk()) drawEditing(context, list, view);
   if (!layers_.problem().empty() && !std::exchange(problemTold_, true))
     session.messages().add(MessageLevel::error,
-                           "The layout cannot be drawn in 3D on this OpenGL. " + layers_.problem());
+                           trf("The layout cannot be drawn in 3D on this OpenGL. {}", layers_.problem()));
 }
 
 void ScenePanel::drawTexts(PanelContext& context, ImDrawList& list) const {
@@ -83,10 +85,10 @@ void ScenePanel::drawTexts(PanelContext& context, ImDrawList& list) const {
     ui::drawLabel(
         list, small, {low.x + 12, base}, ui::palette::text,
         fmt::format("{}×{}   {:.0f} ms{}", shown->picture.colour.width, shown->picture.colour.height,
-                    1e3 * shown->seconds, cutHeight(context) < kNoCut ? "   ceiling cut away" : "")
+                    1e3 * shown->seconds, cutHeight(context) < kNoCut ? tr("   ceiling cut away") : "")
             .c_str());
   else
-    ui::drawLabel(list, small, {low.x + 12, base}, ui::palette::muted, "Tracing the scene…");
+    ui::drawLabel(list, small, {low.x + 12, base}, ui::palette::muted, tr("Tracing the scene…"));
   if (!pointing(context)) return;
   const glm::dvec2 pixel = pointer_ - area_.min;
   const PreviewSeen seen = seenAt(context, pixel);
@@ -94,7 +96,8 @@ void ScenePanel::drawTexts(PanelContext& context, ImDrawList& list) const {
   if (const auto camera = context.state().showCameras
                               ? cameraUnder(layout, camera_.view(), pixel, seen.distance)
                               : std::nullopt)
-    ui::tooltip(sourceName(layout, sourceOfCamera(*camera)) + "\nDouble click to look through it");
+    ui::tooltip(
+        trf("{}\nDouble click to look through it", engineText(sourceName(layout, sourceOfCamera(*camera)))));
   if (!seen.found()) return;
   const glm::dvec3 at = camera_.eye() + double(seen.distance) * camera_.rayThrough(pixel);
   const std::string text = fmt::format("x {:.2f} m   y {:.2f} m   z {:.2f} m", at.x, at.y, at.z);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
@@ -22,7 +24,7 @@ bool askedSection(PanelContext& context, const char* label, bool openAtFirst) {
   const bool asked = wanted == label;
   if (asked) wanted.clear();
   if (asked || wanted == std::string(label) + kAdvanced) ImGui::SetNextItemOpen(true);
-  const bool open = ui::section(label, openAtFirst);
+  const bool open = ui::section((tr(label) + std::string("###") + label).c_str(), openAtFirst);
   logSection(context, label);
   if (asked) ImGui::SetScrollHereY(0.1F);
   return open;
@@ -38,17 +40,19 @@ bool advancedPart(PanelContext& context, const char* section, const std::vector<
   }
   ImGui::PushStyleColor(ImGuiCol_Text, ui::palette::muted.vec());
   const bool open =
-      ImGui::TreeNodeEx((std::string("Advanced##") + section).c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen |
-                                                                           ImGuiTreeNodeFlags_SpanAvailWidth |
-                                                                           ImGuiTreeNodeFlags_FramePadding);
+      ImGui::TreeNodeEx((tr("Advanced") + std::string("###Advanced") + section).c_str(),
+                        ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth |
+                            ImGuiTreeNodeFlags_FramePadding);
   ImGui::PopStyleColor();
   logSection(context, name);
   if (asked) ImGui::SetScrollHereY(0.1F);
   if (changed.empty()) return open;
-  const std::string all = fmt::format("Not as usual: {}", fmt::join(changed, ", "));
+  std::vector<std::string> shown(changed.size());
+  std::ranges::transform(changed, shown.begin(), [](const std::string& each) { return tr(each); });
+  const std::string all = trf("Not as usual: {}", fmt::join(shown, ", "));
   ui::tooltip(all);
   ImGui::SameLine(ui::scaled(112));
-  ui::badge(ui::palette::accent, fmt::format("{} changed", changed.size()));
+  ui::badge(ui::palette::accent, trf("{} changed", changed.size()));
   ui::tooltip(all);
   return open;
 }

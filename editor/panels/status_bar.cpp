@@ -9,6 +9,7 @@
 #include "editor/panels/problems_panel.h"
 #include "editor/panels/walk_facts.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -16,42 +17,49 @@ namespace {
 const char* hintOf(PlanMode mode, bool selected) {
   switch (mode) {
     case PlanMode::cells:
-      return selected
-                 ? "Drag or Ctrl+arrows move the selection, Ctrl+D copies it, Del removes it, Esc clears it  "
-                   " "
-                   "·   Shift+drag adds, Ctrl+drag toggles"
-                 : "Click adds or selects a cell, drag moves it, Shift+drag selects   ·   right drag pans, "
-                   "wheel zooms   ·   WASD walks";
+      return selected ? tr("Drag or Ctrl+arrows move the selection, Ctrl+D copies it, Del removes it, Esc "
+                           "clears it  "
+                           " "
+                           "·   Shift+drag adds, Ctrl+drag toggles")
+                      : tr("Click adds or selects a cell, drag moves it, Shift+drag selects   ·   right drag "
+                           "pans, "
+                           "wheel zooms   ·   WASD walks");
     case PlanMode::eye:
-      return "Press to put the eye there, drag to turn it   ·   WASD walks";
+      return tr("Press to put the eye there, drag to turn it   ·   WASD walks");
     case PlanMode::outline:
-      return "Click for corners (Enter closes) or drag a rectangle, inside for a hole; drag corners and "
-             "sides, "
-             "Ctrl+click takes a corner away";
+      return tr(
+          "Click for corners (Enter closes) or drag a rectangle, inside for a hole; drag corners and "
+          "sides, "
+          "Ctrl+click takes a corner away");
     case PlanMode::panorama:
-      return "Click or drag free ground to place a panorama; click one to select it, drag moves it, "
-             "Ctrl+click "
-             "removes it";
+      return tr(
+          "Click or drag free ground to place a panorama; click one to select it, drag moves it, "
+          "Ctrl+click "
+          "removes it");
     case PlanMode::lattice:
-      return "Drag the middle to move the lattice, the handle on the circle to turn it, the square for the "
-             "cells' size   ·   Shift snaps";
+      return tr(
+          "Drag the middle to move the lattice, the handle on the circle to turn it, the square for the "
+          "cells' size   ·   Shift snaps");
     case PlanMode::measure:
-      return "Drag to measure, corners attract (Alt: anywhere)   ·   Esc clears, and again ends";
+      return tr("Drag to measure, corners attract (Alt: anywhere)   ·   Esc clears, and again ends");
     case PlanMode::path:
-      return "Click a path or key pose to select it, drag poses and ticks, press on the line for a new pose, "
-             "Del removes";
+      return tr(
+          "Click a path or key pose to select it, drag poses and ticks, press on the line for a new pose, "
+          "Del removes");
     case PlanMode::density:
-      return "Press or drag over cells to paint, Ctrl takes back   ·   ] and [ change the selected cells, or "
-             "the one you stand in";
+      return tr(
+          "Press or drag over cells to paint, Ctrl takes back   ·   ] and [ change the selected cells, or "
+          "the one you stand in");
   }
   return "";
 }
 
-constexpr const char* kAccuracyHint = "Point at a mark for its worst frame and its figures, click to keep it";
-constexpr const char* kSceneHint =
+constexpr const char* kAccuracyHint =
+    trLater("Point at a mark for its worst frame and its figures, click to keep it");
+constexpr const char* kSceneHint = trLater(
     "Drag orbits, right drag pans, wheel comes nearer   ·   click selects, arrows move what is selected   ·  "
     " "
-    "Alt+click asks a surface, double click centres or opens a camera";
+    "Alt+click asks a surface, double click centres or opens a camera");
 
 /// The first that runs, of those that are worth waiting for; null if none.
 const Job* workOf(const Session& session) {
@@ -81,7 +89,7 @@ void drawShare(double share) {
 void drawWork(const Session& session, const Job& job) {
   const bool baking = &job == &session.baking();
   const bool paused = baking && session.bakePaused();
-  std::string text = paused ? "bake paused" : job.cancelling() ? "stopping…" : progressText(job);
+  std::string text = paused ? tr("bake paused") : job.cancelling() ? tr("stopping…") : progressText(job);
   ui::badge(paused ? ui::palette::warning : ui::palette::accent, text);
   const double share =
       baking && !session.bakeQueue().cameras().empty() ? session.bakeQueue().share() : progressFraction(job);
@@ -89,9 +97,11 @@ void drawWork(const Session& session, const Job& job) {
 }
 
 void drawSaved(const Session& session) {
-  if (!session.hasProject()) return ui::badge(ui::palette::faint, "ready");
-  if (session.shippedWalk()) return ui::badge(ui::palette::good, "a walk, not edited");
-  const char* text = session.untitled() ? "not saved yet" : session.dirty() ? "unsaved changes" : "saved";
+  if (!session.hasProject()) return ui::badge(ui::palette::faint, tr("ready"));
+  if (session.shippedWalk()) return ui::badge(ui::palette::good, tr("a walk, not edited"));
+  const char* text = session.untitled() ? tr("not saved yet")
+                     : session.dirty()  ? tr("unsaved changes")
+                                        : tr("saved");
   ui::badge(session.dirty() ? ui::palette::warning : ui::palette::good, text);
 }
 
@@ -101,10 +111,10 @@ void drawProblemCount(PanelContext& context) {
   if (mark.text.empty()) return;
   ImGui::SameLine(0, 18);
   ImGui::BeginGroup();
-  ui::badge(mark.colour, mark.text + (mark.text == "1" ? " problem" : " problems"));
+  ui::badge(mark.colour, trfMany("{} problem", "{} problems", mark.text == "1" ? 1 : 2, mark.text));
   ImGui::EndGroup();
   context.log.item("status.problems");
-  ui::tooltip("Click for the list");
+  ui::tooltip(tr("Click for the list"));
   if (ImGui::IsItemClicked()) runAction(context, *findAction(context.table, std::string("tab.problems")));
 }
 
@@ -128,9 +138,9 @@ void drawStatusBar(PanelContext& context) {
   const std::string& readout = context.state().scene3d.readout;
   const bool inScene = view == View::scene3d && context.state().planTool.mode() == PlanMode::cells;
   const char* hint = !readout.empty() ? readout.c_str()
-                     : inScene        ? kSceneHint
+                     : inScene        ? tr(kSceneHint)
                      : view == View::accuracy
-                         ? kAccuracyHint
+                         ? tr(kAccuracyHint)
                          : hintOf(context.state().planTool.mode(), !context.state().selection.empty());
   const float from = std::max(ImGui::GetCursorPosX(), ui::scaled(324));
   const float to = ImGui::GetWindowSize().x - margin;

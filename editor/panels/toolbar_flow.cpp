@@ -28,7 +28,7 @@ void flow(float width, float gap) {
 void flowEntry(PanelContext& context, const ToolbarEntry& entry) {
   const bool pictures = context.window.fonts().icons != nullptr;
   flow(pictures ? ui::iconButtonSize().x
-                : ImGui::CalcTextSize(entry.word).x + 2 * ImGui::GetStyle().FramePadding.x,
+                : ImGui::CalcTextSize(tr(entry.word)).x + 2 * ImGui::GetStyle().FramePadding.x,
        entry.gap);
 }
 
@@ -37,7 +37,7 @@ void toolbar(PanelContext& context, std::span<const ToolbarEntry> entries,
   for (const ToolbarEntry& entry : entries) {
     flowEntry(context, entry);
     if (entry.id != nullptr)
-      actionIcon(context, entry.id, entry.icon, entry.look, entry.word);
+      actionIcon(context, entry.id, entry.icon, entry.look, tr(entry.word));
     else
       own(entry);
   }

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "ui/colour.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -15,7 +16,8 @@ void drawTab(PanelContext& context, const ViewTab& tab, bool shown, bool active)
   const Action& action = actionOf(context, tab.id);
   const bool enabled = action.enabled(context.actions);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 text = ImGui::CalcTextSize(tab.label);
+  const char* const label = tr(tab.label);
+  const ImVec2 text = ImGui::CalcTextSize(label);
   const ImVec2 size(text.x + ui::scaled(2 * kTabPadding), ui::scaled(kStripHeight));
   if (ImGui::InvisibleButton(tab.id, size) && !shown) runAction(context, action);
   if (shown && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
@@ -29,7 +31,7 @@ void drawTab(PanelContext& context, const ViewTab& tab, bool shown, bool active)
     list.AddRectFilled(at, end, (shown ? ui::palette::panel : ui::palette::raised).packed());
   if (shown && active) list.AddRectFilled(at, {end.x, at.y + ui::scaled(2)}, ui::palette::accent.packed());
   const ui::Colour& ink = !enabled ? ui::palette::faint : shown ? ui::palette::text : ui::palette::muted;
-  list.AddText({at.x + ui::scaled(kTabPadding), at.y + (size.y - text.y) / 2}, ink.packed(), tab.label);
+  list.AddText({at.x + ui::scaled(kTabPadding), at.y + (size.y - text.y) / 2}, ink.packed(), label);
 }
 
 /// A frame with corners that point outwards, or inwards.
@@ -55,8 +57,8 @@ void drawEnlargeButton(PanelContext& context, const char* id) {
   context.log.item(name);
   const bool hovered = ImGui::IsItemHovered();
   const bool whole = context.state().whole != WholeView::none;
-  ui::tooltip(std::string(whole ? "Back beside the other views" : "Fill the window with this view") + "  [" +
-              describe(action.shortcut) + "]");
+  ui::tooltip(std::string(whole ? tr("Back beside the other views") : tr("Fill the window with this view")) +
+              "  [" + describe(action.shortcut) + "]");
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (hovered) list.AddRectFilled(at, {at.x + side, at.y + side}, ui::palette::raised.packed());
   const ui::Colour& ink = hovered ? ui::palette::text : ui::palette::muted;

@@ -7,6 +7,7 @@
 
 #include "ui/canvas_draw.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -51,16 +52,16 @@ WalkCompare::Sides WalkCompare::sidesOf(PanelContext& context, const Truth* trut
     const VariantCompare& variants = context.session().variants();
     const bool there = variants.frame() != nullptr;
     const std::string waiting =
-        variants.problem().empty() ? "the kept variant is drawn once the eye rests" : variants.problem();
-    return {there, true, there ? "kept" : waiting, "now", "now"};
+        variants.problem().empty() ? tr("the kept variant is drawn once the eye rests") : variants.problem();
+    return {there, true, there ? tr("kept") : waiting, tr("now"), tr("now")};
   }
   const bool there = truth != nullptr;
   const bool tracing = context.session().comparing().tracing();
-  return {there, false, "walk",
+  return {there, false, tr("walk"),
           there     ? describe(*truth)
-          : tracing ? "tracing the truth"
-                    : "the truth is traced once the eye rests",
-          "truth"};
+          : tracing ? tr("tracing the truth")
+                    : tr("the truth is traced once the eye rests"),
+          tr("truth")};
 }
 
 void WalkCompare::drawSplit(PanelContext& context, ImDrawList& list, const Sides& sides) {
@@ -104,8 +105,8 @@ void WalkCompare::drawDifference(PanelContext& context, ImDrawList& list,
                                  const std::shared_ptr<const Frame>& frame) {
   const bool there = truth != nullptr && frame != nullptr;
   if (there) ui::drawImage(texture_.imguiId(), place_, false);
-  const std::string name = there ? fmt::format("difference from {}, ×{}", describe(*truth), shownGain_)
-                                 : std::string("the difference is shown once the eye rests");
+  const std::string name = there ? trf("difference from {}, ×{}", describe(*truth), shownGain_)
+                                 : std::string(tr("the difference is shown once the eye rests"));
   ui::drawLabel(list, context.window.fonts().small,
                 {float(place_.min.x) + kLabelX, float(place_.min.y) + kLabelY},
                 there ? palette::text : palette::muted, name.c_str());

@@ -6,6 +6,7 @@
 #include "editor/panels/settings_panel.h"
 #include "engine/geometry/conventions.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -22,27 +23,27 @@ std::string walkLine(const ShippedWalk& walk) {
 }
 
 void drawWalkFacts(PanelContext& context) {
-  ui::panelTitle(context.window.fonts().bold, "Walk");
+  ui::panelTitle(context.window.fonts().bold, tr("Walk"));
   const Session& session = context.session();
   const ShippedWalk& walk = *session.shippedWalk();
   ui::wrappedText(ui::palette::muted,
-                  "It is looked at as it was exported. To edit or bake it, open its project.");
-  if (ui::section("File")) {
-    fact("Name", walk.bundle.name);
-    fact("File", walk.file.filename().string());
-    fact("Size", ui::formatBytes(walk.bytes));
-    fact("Made by", walk.bundle.generator);
-    fact("Textures", ui::formatCount(walk.bundle.textures.size()));
+                  tr("It is looked at as it was exported. To edit or bake it, open its project."));
+  if (ui::section(tr("File"))) {
+    fact(tr("Name"), walk.bundle.name);
+    fact(tr("File"), walk.file.filename().string());
+    fact(tr("Size"), ui::formatBytes(walk.bytes));
+    fact(tr("Made by"), walk.bundle.generator);
+    fact(tr("Textures"), ui::formatCount(walk.bundle.textures.size()));
   }
-  if (!session.built() || !ui::section("Storey")) return;
+  if (!session.built() || !ui::section(tr("Storey"))) return;
   drawStoreyChoice(context);
   const Layout& layout = *session.built()->layout;
   const std::string all = ui::formatCount(walk.regionCount(session.built()->project.storey));
-  fact("Regions", walk.pages ? fmt::format("{} of {}", layout.regions.size(), all) : all);
-  fact("Cameras", ui::formatCount(layout.cameras.size()));
+  fact(tr("Regions"), walk.pages ? trf("{} of {}", layout.regions.size(), all) : all);
+  fact(tr("Cameras"), ui::formatCount(layout.cameras.size()));
   const WalkPose& pose = context.state().walker.pose();
-  fact("Eye", fmt::format("({:.2f}, {:.2f}, {:.2f}) m", pose.eye.x, pose.eye.y, pose.eye.z));
-  fact("Looks", fmt::format("{:.0f}°, {:.0f}° up", degrees(pose.yawRadians), degrees(pose.pitchRadians)));
+  fact(tr("Eye"), fmt::format("({:.2f}, {:.2f}, {:.2f}) m", pose.eye.x, pose.eye.y, pose.eye.z));
+  fact(tr("Looks"), trf("{:.0f}°, {:.0f}° up", degrees(pose.yawRadians), degrees(pose.pitchRadians)));
 }
 
 }  // namespace acentric::editor

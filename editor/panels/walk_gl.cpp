@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "editor/panels/walk_panel.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -13,9 +14,8 @@ void WalkPanel::openGl(Session& session) {
     return;
   }
   glProblem_ = created.error().message;
-  session.messages().add(MessageLevel::warning,
-                         fmt::format("{}. Until then the walk is drawn with \"{}\".", glProblem_,
-                                     nameOf(settingsOf(session).renderer)));
+  session.messages().add(MessageLevel::warning, trf("{}. Until then the walk is drawn with \"{}\".",
+                                                    glProblem_, nameOf(settingsOf(session).renderer)));
 }
 
 bool WalkPanel::receive(PanelContext& context) {
@@ -74,7 +74,8 @@ void WalkPanel::tryGraphics(PanelContext& context) {
   settings.renderer = Renderer::gl;
   const auto stats = gl_->draw(shown_.loaded->walk, shown_.view, settings);
   if (stats && (stats->capturesAwaited > 0 || gl_->anyToReceive())) return context.window.pacer().request(1);
-  std::string told = stats ? "" : "The graphics card cannot draw this walk: " + stats.error().describe();
+  std::string told =
+      stats ? "" : trf("The graphics card cannot draw this walk: {}", stats.error().describe());
   if (stats) {
     Frame card = gl_->readBack();
     card.stats = *stats;

@@ -3,6 +3,7 @@
 #include "editor/panels/walk_panel.h"
 #include "editor/tools/ray_math.h"
 #include "engine/bake/ray_scene.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -11,7 +12,7 @@ constexpr const char* kPopup = "##walkMenu";
 
 void drawItem(PanelContext& context, const char* id) {
   const Action& action = actionOf(context, id);
-  const std::string text = action.label + "###" + action.id;
+  const std::string text = tr(action.label) + "###" + action.id;
   if (ImGui::MenuItem(text.c_str(), describe(action.shortcut).c_str(), false,
                       action.enabled(context.actions)))
     runAction(context, action);

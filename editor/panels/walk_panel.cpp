@@ -13,6 +13,7 @@
 #include "engine/pipeline/walk_ground.h"
 #include "ui/canvas_draw.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -119,24 +120,24 @@ void WalkPanel::drawToolbar(PanelContext& context) {
 void WalkPanel::drawButtons(PanelContext& context) {
   using enum ButtonLook;
   static constexpr ToolbarEntry kEntries[] = {
-      {"view.holes", "Holes", ui::Icon::eyeSlashed, 0, tool},
-      {"view.sources", "Sources", ui::Icon::brush, kNear, tool},
-      {"view.split", "Split", ui::Icon::columns, kNear, tool},
-      {"view.difference", "Difference", ui::Icon::adjust, kNear, tool},
-      {"view.variant", "Variant", ui::Icon::clone, kNear, tool},
-      {"walk.ask", "Ask", ui::Icon::question, kApart},
-      {"view.minimap", "Map", ui::Icon::map, kNear},
-      {"view.images", "Images", ui::Icon::files, kNear},
-      {"view.frameTimes", "Times", ui::Icon::barChart, kNear},
-      {nullptr, "Settings…", ui::Icon::sliders, kApart},
-      {"walk.screenshot", "Save picture", ui::Icon::camera, kNear, plain},
-      {"walk.restart", "To start", ui::Icon::home, kApart, plain},
-      {"walk.setStart", "Start here", ui::Icon::flag, kNear, plain}};
+      {"view.holes", trLater("Holes"), ui::Icon::eyeSlashed, 0, tool},
+      {"view.sources", trLater("Sources"), ui::Icon::brush, kNear, tool},
+      {"view.split", trLater("Split"), ui::Icon::columns, kNear, tool},
+      {"view.difference", trLater("Difference"), ui::Icon::adjust, kNear, tool},
+      {"view.variant", trLater("Variant"), ui::Icon::clone, kNear, tool},
+      {"walk.ask", trLater("Ask"), ui::Icon::question, kApart},
+      {"view.minimap", trLater("Map"), ui::Icon::map, kNear},
+      {"view.images", trLater("Images"), ui::Icon::files, kNear},
+      {"view.frameTimes", trLater("Times"), ui::Icon::barChart, kNear},
+      {nullptr, trLater("Settings…"), ui::Icon::sliders, kApart},
+      {"walk.screenshot", trLater("Save picture"), ui::Icon::camera, kNear, plain},
+      {"walk.restart", trLater("To start"), ui::Icon::home, kApart, plain},
+      {"walk.setStart", trLater("Start here"), ui::Icon::flag, kNear, plain}};
   toolbar(context, kEntries,
           [&](const ToolbarEntry& entry) { drawWalkSettingsButton(context, entry, glProblem_); });
   if (!needsTruth(context.state().walkLook)) return;
   ImGui::AlignTextToFramePadding();
-  ui::mutedText("Rays per pixel");
+  ui::mutedText(tr("Rays per pixel"));
   for (const int rays : kTruthRays) {
     ImGui::SameLine(0, rays == kTruthRays[0] ? ui::scaled(10) : ui::scaled(kNear));
     actionButton(context, fmt::format("compare.rays.{}", rays).c_str(), ButtonLook::toggle);
@@ -189,7 +190,7 @@ void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& hig
 
 void WalkPanel::draw(PanelContext& context) {
   if (!context.state().fullScreen) {
-    static constexpr ViewTab kTab{"view.walk", "Walk"};
+    static constexpr ViewTab kTab{"view.walk", trLater("Walk")};
     drawViewStrip(context, {&kTab, 1}, kTab.id, true);
     drawToolbar(context);
   }

@@ -4,12 +4,14 @@
 #include <algorithm>
 
 #include "editor/panels/walk_panel.h"
+#include "editor/session/engine_texts.h"
 #include "editor/session/screenshot.h"
 #include "editor/session/sending_text.h"
 #include "engine/geometry/conventions.h"
 #include "ui/canvas_draw.h"
 #include "ui/image_view.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -147,7 +149,7 @@ void WalkPanel::savePicture(PanelContext& context) {
   state.takePicture = false;
   Session& session = context.session();
   if (!rested_)
-    return session.messages().add(MessageLevel::warning, "There is no picture to save: " + problem_);
+    return session.messages().add(MessageLevel::warning, trf("There is no picture to save: {}", problem_));
   ColourImage picture = pictureOf(*rested_);
   if (const auto& kept = session.variants().frame(); kept && state.walkLook == WalkLook::variant)
     picture = splitPicture(kept->colour, picture, state.splitAt);
@@ -175,7 +177,8 @@ void WalkPanel::nameSource(const glm::dvec2& pointer) const {
   const PixelSource here = source.at(int(at.x), int(at.y));
   const Layout& layout = *shown_.loaded->walk.layout;
   const SourceRole role = SourceRoles(layout, shown_.view).of(here);
-  const std::string text = sourceName(layout, here) + (role == SourceRole::otherHand ? " (other hand)" : "");
+  const std::string text =
+      engineText(sourceName(layout, here)) + (role == SourceRole::otherHand ? tr(" (other hand)") : "");
   ui::tooltip(text);
 }
 
@@ -257,33 +260,33 @@ void WalkPanel::drawNotice(const PanelContext& context, const ImVec2& low, const
   };
   const Session& session = context.actions.session;
   if (session.built() && session.built()->layout->regions.empty())
-    say(ui::palette::text, "No cells yet. Click a free place on the plan to add one.");
+    say(ui::palette::text, tr("No cells yet. Click a free place on the plan to add one."));
   else if (!problem_.empty())
     say(ui::palette::danger, problem_);
   else if (nothingBaked(session) && session.shippedWalk())
-    say(ui::palette::text, "This walk has no captures: it was exported before anything was baked.");
+    say(ui::palette::text, tr("This walk has no captures: it was exported before anything was baked."));
   else if (nothingBaked(session) && !previewing_)
-    say(ui::palette::text, "Nothing is baked yet. Press Bake (Ctrl+B) to see this place.");
+    say(ui::palette::text, tr("Nothing is baked yet. Press Bake (Ctrl+B) to see this place."));
   else if (!session.walk())
-    say(ui::palette::muted, "Loading captures…");
+    say(ui::palette::muted, tr("Loading captures…"));
 }
 
 void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const ImVec2& size) const {
   Session& session = context.actions.session;
   const Layout& layout = *session.built()->layout;
   const auto region = layout.regionAt(glm::dvec2(context.state().walker.pose().eye));
-  std::string where = "outside";
+  std::string where = tr("outside");
   if (region) {
     const Region& r = layout.regions[std::size_t(*region)];
-    const char* kind = r.kind == RegionKind::ring ? "ring" : "gap";
+    const char* kind = r.kind == RegionKind::ring ? tr("ring") : tr("gap");
     where = session.shippedWalk() ? fmt::format("{} {}", kind, r.id.i)
                                   : fmt::format("{} ({}, {})", kind, r.id.i, r.id.j);
   }
   std::string text = where;
   if (shown_.valid && problem_.empty() && !previewing_) {
-    text += fmt::format("   {} images", shown_.stats.images);
-    if (shown_.stats.missingImages > 0) text += fmt::format(" (+{} missing)", shown_.stats.missingImages);
-    text += shown_.holeShare >= 0 ? fmt::format("   holes {}", ui::formatPercent(shown_.holeShare)) : "";
+    text += trf("   {} images", shown_.stats.images);
+    if (shown_.stats.missingImages > 0) text += trf(" (+{} missing)", shown_.stats.missingImages);
+    text += shown_.holeShare >= 0 ? trf("   holes {}", ui::formatPercent(shown_.holeShare)) : "";
     text += fmt::format("   {}×{}   {:.1f} ms", shown_.view.width, shown_.view.height,
                         shown_.stats.totalSeconds * 1000);
     if (showingGl_) text += "   OpenGL";
@@ -298,19 +301,19 @@ void WalkPanel::drawStatistics(PanelContext& context, const ImVec2& low, const I
   };
   line(text);
   if (const auto& figures = session.variants().figures(); figures && session.captures()) {
-    line(fmt::format("against {} rays per pixel", VariantCompare::kTruthRays));
+    line(trf("against {} rays per pixel", VariantCompare::kTruthRays));
     line(nowText(*figures, session.captures()->bytes));
     line(keptText(*figures));
   }
   if (const auto& compared = session.comparing().compared()) {
-    line(againstText(*compared) + (session.comparing().tracing() ? ", more on the way" : ""));
+    line(againstText(*compared) + (session.comparing().tracing() ? tr(", more on the way") : ""));
     line(figuresText(*compared));
   }
   if (shown_.valid)
     if (const std::string words = capturesAwaitedText(shown_.stats); !words.empty()) line(words);
   const bool lit = session.shippedWalk() || (session.walk() && session.walk()->walk.surfaceLight);
-  if (session.walk() && !lit && !nothingBaked(session)) line("near geometry unlit until a bake ends");
-  if (session.streaming()) line("captures are being read");
+  if (session.walk() && !lit && !nothingBaked(session)) line(tr("near geometry unlit until a bake ends"));
+  if (session.streaming()) line(tr("captures are being read"));
   if (session.walk() && session.walk()->coarse > 0) line(coarseText(*session.walk()));
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ui/canvas_draw.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -33,7 +34,7 @@ bool WalkPreview::draw(PanelContext& context, const PerspectiveView& view, const
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddImage(texture_.imguiId(), low, high);
   ui::drawLabel(list, context.window.fonts().small, {low.x + ui::scaled(12), low.y + ui::scaled(9)},
-                ui::palette::text, "Not baked yet: a quick picture, without light. Ctrl+B bakes.");
+                ui::palette::text, tr("Not baked yet: a quick picture, without light. Ctrl+B bakes."));
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "editor/commands/setting_edits.h"
 #include "editor/panels/preference_fields.h"
 #include "editor/panels/project_field.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -18,13 +19,13 @@ constexpr float kWidth = 344;
 const char* labelOf(Renderer renderer) {
   switch (renderer) {
     case Renderer::list:
-      return "List priority";
+      return tr("List priority");
     case Renderer::scalar:
-      return "Scalar reference";
+      return tr("Scalar reference");
     case Renderer::precise:
-      return "Double precision";
+      return tr("Double precision");
     case Renderer::zbuffer:
-      return "Depth buffer";
+      return tr("Depth buffer");
     case Renderer::gl:
       return "OpenGL";
   }
@@ -34,15 +35,15 @@ const char* labelOf(Renderer renderer) {
 const char* helpFor(Renderer renderer) {
   switch (renderer) {
     case Renderer::list:
-      return "List priority without a depth buffer: the fast one on the processor.";
+      return tr("List priority without a depth buffer: the fast one on the processor.");
     case Renderer::scalar:
-      return "List priority, one sample at a time: the reference.";
+      return tr("List priority, one sample at a time: the reference.");
     case Renderer::precise:
-      return "The reference in double precision: what floats cost.";
+      return tr("The reference in double precision: what floats cost.");
     case Renderer::zbuffer:
-      return "The same splats with a depth buffer, for comparison.";
+      return tr("The same splats with a depth buffer, for comparison.");
     case Renderer::gl:
-      return "List priority on the graphics card, as patches.";
+      return tr("List priority on the graphics card, as patches.");
   }
   return "";
 }
@@ -50,11 +51,11 @@ const char* helpFor(Renderer renderer) {
 const char* labelOf(Reconstruction reconstruction) {
   switch (reconstruction) {
     case Reconstruction::point:
-      return "Points";
+      return tr("Points");
     case Reconstruction::splat:
-      return "Splats";
+      return tr("Splats");
     case Reconstruction::patches:
-      return "Patches";
+      return tr("Patches");
   }
   return "";
 }
@@ -62,11 +63,11 @@ const char* labelOf(Reconstruction reconstruction) {
 const char* helpFor(Reconstruction reconstruction) {
   switch (reconstruction) {
     case Reconstruction::point:
-      return "One pixel a sample: shows the sampling. The least time.";
+      return tr("One pixel a sample: shows the sampling. The least time.");
     case Reconstruction::splat:
-      return "Squares as large as a sample's footprint. Costs the pixels that they paint over.";
+      return tr("Squares as large as a sample's footprint. Costs the pixels that they paint over.");
     case Reconstruction::patches:
-      return "Surfaces drawn to their edges, colours interpolated within them.";
+      return tr("Surfaces drawn to their edges, colours interpolated within them.");
   }
   return "";
 }
@@ -100,19 +101,22 @@ std::optional<Value> chooseOf(PanelContext& context, const char* label, const ch
 void drawRenderer(PanelContext& context, const std::string& glProblem) {
   const Project& project = context.session().project();
   ViewSettings view = project.view;
-  if (const auto renderer = chooseOf(
-          context, "Renderer", "walk.renderer", kRenderers, view.renderer, [&](Renderer each) -> std::string {
-            if (!onOpenGl(each)) return "";
-            return view.reconstruction == Reconstruction::patches ? glProblem : "OpenGL draws patches.";
-          })) {
+  if (const auto renderer = chooseOf(context, tr("Renderer"), "walk.renderer", kRenderers, view.renderer,
+                                     [&](Renderer each) -> std::string {
+                                       if (!onOpenGl(each)) return "";
+                                       return view.reconstruction == Reconstruction::patches
+                                                  ? glProblem
+                                                  : tr("OpenGL draws patches.");
+                                     })) {
     view.renderer = *renderer;
-    context.session().apply(setViewSettings(project, view, "renderer"));
+    context.session().apply(setViewSettings(project, view, tr("renderer")));
   }
-  if (const auto reconstruction = chooseOf(context, "Reconstruction", "walk.reconstruction", kReconstructions,
-                                           view.reconstruction, [](Reconstruction) { return ""; })) {
+  if (const auto reconstruction =
+          chooseOf(context, tr("Reconstruction"), "walk.reconstruction", kReconstructions,
+                   view.reconstruction, [](Reconstruction) { return ""; })) {
     view.reconstruction = *reconstruction;
     if (view.reconstruction != Reconstruction::patches) view.renderer = withoutOpenGl(view.renderer);
-    context.session().apply(setViewSettings(project, view, "reconstruction"));
+    context.session().apply(setViewSettings(project, view, tr("reconstruction")));
   }
 }
 
@@ -124,23 +128,23 @@ void drawEyeHeight(PanelContext& context) {
   const EyeHeights heights = eyeHeights(open, glm::dvec2(pose.eye));
   const double floor = footingOf(open, glm::dvec2(pose.eye)).ground;
   double height = pose.eye.z - floor;
-  const std::string help =
-      heights.high > heights.low
-          ? fmt::format("Page Up and Page Down too. Captures are baked for {:.2f} to {:.2f} m.",
-                        heights.low - floor, heights.high - floor)
-      : context.session().shippedWalk() ? "A walk is looked at from the height of its captures."
-                                        : "Captures are baked for this height alone; an eye range (Bake "
-                                          "quality, Advanced) makes it a choice.";
+  const std::string help = heights.high > heights.low
+                               ? trf("Page Up and Page Down too. Captures are baked for {:.2f} to {:.2f} m.",
+                                     heights.low - floor, heights.high - floor)
+                           : context.session().shippedWalk()
+                               ? tr("A walk is looked at from the height of its captures.")
+                               : tr("Captures are baked for this height alone; an eye range (Bake "
+                                    "quality, Advanced) makes it a choice.");
   ImGui::BeginDisabled(heights.high <= heights.low);
   const ui::FieldEdit edit =
-      ui::numberField({"Eye above floor", "%.2f m", 0.002, heights.low - floor, heights.high - floor, ""},
+      ui::numberField({tr("Eye above floor"), "%.2f m", 0.002, heights.low - floor, heights.high - floor, ""},
                       height, kLabelWidth);
   ImGui::EndDisabled();
   context.log.item("walk.eyeHeight");
   ui::tooltip(help);
   if (heights.high <= heights.low && !context.session().shippedWalk()) {
     ImGui::SetCursorPosX(ui::scaled(kLabelWidth));
-    if (ui::button("Set an eye range…")) {
+    if (ui::button(tr("Set an eye range…"))) {
       runAction(context, *findAction(context.table, std::string("settings.advancedBake")));
       ImGui::CloseCurrentPopup();
     }
@@ -153,13 +157,13 @@ void drawEyeHeight(PanelContext& context) {
 
 void drawWalking(PanelContext& context) {
   const Project& project = context.session().project();
-  number(context, "fov", {"Field of view", "%.0f°", 0.2, 10, 150, "Horizontal."}, project.fovDegrees,
+  number(context, "fov", {tr("Field of view"), "%.0f°", 0.2, 10, 150, tr("Horizontal.")}, project.fovDegrees,
          [&](double v) { return setFieldOfView(project, v); });
   ImGui::BeginDisabled(context.session().shippedWalk() != nullptr);  // its colours are as they are shown
-  number(
-      context, "exposure",
-      {"Exposure", "%.3g", double(project.exposure) * 0.01, 1e-6, 1e6, "Brightness; nothing is baked anew."},
-      double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
+  number(context, "exposure",
+         {tr("Exposure"), "%.3g", double(project.exposure) * 0.01, 1e-6, 1e6,
+          tr("Brightness; nothing is baked anew.")},
+         double(project.exposure), [&](double v) { return setExposure(project, float(v)); });
   ImGui::EndDisabled();
   drawEyeHeight(context);
   walkSpeedField(context, kLabelWidth);
@@ -173,31 +177,32 @@ void drawPainting(PanelContext& context) {
   const auto apply = [&](const ui::FieldEdit& edit, const char* what) {
     if (edit) applyFieldEdit(context, edit, setViewSettings(project, view, what));
   };
-  apply(ui::numberField(
-            {"Largest splat", "%.0f px", 0.1, 1, 64, "Smaller: sharper edges, more holes near walls."},
-            view.maxSplatPixels, kLabelWidth),
-        "largest splat");
+  apply(ui::numberField({tr("Largest splat"), "%.0f px", 0.1, 1, 64,
+                         tr("Smaller: sharper edges, more holes near walls.")},
+                        view.maxSplatPixels, kLabelWidth),
+        tr("largest splat"));
   const auto check = [&](const char* label, bool ViewSettings::*member, const char* help) {
     bool value = view.*member;
     const ui::FieldEdit edit = ui::checkField(label, value, kLabelWidth, help);
     view.*member = value;
     apply(edit, label);
   };
-  check("Near geometry", &ViewSettings::localGeometry, "Polygons within the near band, over the captures.");
-  check("Other hand behind", &ViewSettings::secondaryCover,
-        "In rings: the other ring's samples fill what the first leaves open.");
-  check("Fill holes", &ViewSettings::fillHoles, "By guesswork; still counted as holes.");
+  check(tr("Near geometry"), &ViewSettings::localGeometry,
+        tr("Polygons within the near band, over the captures."));
+  check(tr("Other hand behind"), &ViewSettings::secondaryCover,
+        tr("In rings: the other ring's samples fill what the first leaves open."));
+  check(tr("Fill holes"), &ViewSettings::fillHoles, tr("By guesswork; still counted as holes."));
 }
 
 }  // namespace
 
 void drawWalkSettingsButton(PanelContext& context, const ToolbarEntry& entry, const std::string& glProblem) {
   ImFont* icons = context.window.fonts().icons;
-  const bool clicked =
-      icons != nullptr ? ui::iconButton(icons, "##walkSettingsButton", entry.icon) : ui::button(entry.word);
+  const bool clicked = icons != nullptr ? ui::iconButton(icons, "##walkSettingsButton", entry.icon)
+                                        : ui::button(tr(entry.word));
   if (clicked) ImGui::OpenPopup(kPopup);
   context.log.item("walk.settings");
-  ui::tooltip("Settings of the walk\nRenderer, field of view, eye height, speed");
+  ui::tooltip(tr("Settings of the walk\nRenderer, field of view, eye height, speed"));
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const float right = ImGui::GetIO().DisplaySize.x - 8;
   ImGui::SetNextWindowPos({std::min(low.x, right - ui::scaled(kWidth)), high.y + 4});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -25,7 +26,7 @@ void drawRecentFiles(PanelContext& context) {
   ImGui::Dummy({0, ui::scaled(18)});
   const float left = (ImGui::GetWindowSize().x - listWidth()) / 2;
   ImGui::SetCursorPosX(left);
-  ui::mutedText("Recent projects and walks");
+  ui::mutedText(tr("Recent projects and walks"));
   for (const std::filesystem::path& file : recent) {
     ImGui::SetCursorPosX(left);
     const std::string label = file.filename().string() + "##" + file.string();
@@ -43,7 +44,7 @@ void drawUnsavedWork(PanelContext& context) {
   ImGui::Dummy({0, 18});
   const float left = (ImGui::GetWindowSize().x - listWidth()) / 2;
   ImGui::SetCursorPosX(left);
-  ui::mutedText("Not saved when the last run ended");
+  ui::mutedText(tr("Not saved when the last run ended"));
   for (std::size_t i = 0; i < works.size(); ++i) {
     ImGui::SetCursorPosX(left);
     const std::string label = works[i].projectFile.filename().string() + "##" + works[i].autosave.string();
@@ -52,7 +53,7 @@ void drawUnsavedWork(PanelContext& context) {
     ImGui::PopStyleColor();
     context.log.item("welcome.unsaved." + std::to_string(i));
     if (clicked) context.session().open(works[i].autosave);
-    const std::string when = "as of " + works[i].since;
+    const std::string when = trf("as of {}", works[i].since);
     ImGui::SameLine(left + listWidth() - ImGui::CalcTextSize(when.c_str()).x);
     ui::mutedText(when);
   }
@@ -63,9 +64,11 @@ void drawUnsavedWork(PanelContext& context) {
 void drawWelcome(PanelContext& context) {
   const ui::Fonts& fonts = context.window.fonts();
   ImGui::SetCursorPosY(std::max(20.0F, ImGui::GetWindowSize().y * 0.26F));
-  centredText(fonts.title, ui::palette::text, "Open a project or a walk, or a 3D model to begin a project");
+  centredText(fonts.title, ui::palette::text,
+              tr("Open a project or a walk, or a 3D model to begin a project"));
   ImGui::Dummy({0, 4});
-  centredText(fonts.regular, ui::palette::muted, "Acentric lays, bakes and walks acentric panorama views.");
+  centredText(fonts.regular, ui::palette::muted,
+              tr("Acentric lays, bakes and walks acentric panorama views."));
   ImGui::Dummy({0, ui::scaled(16)});
   const ImVec2 button = ui::scaled(ImVec2(200, 38));
   const float gap = ui::scaled(10);
@@ -75,7 +78,7 @@ void drawWelcome(PanelContext& context) {
   actionButton(context, "file.new", ButtonLook::plain, button);
   ImGui::Dummy({0, 8});
   centredText(fonts.small, ui::palette::faint,
-              "or drop a file here:  .acentric.json   .acentric   .glb .gltf   .obj .ply .stl .fbx .dae");
+              tr("or drop a file here:  .acentric.json   .acentric   .glb .gltf   .obj .ply .stl .fbx .dae"));
   drawUnsavedWork(context);
   drawRecentFiles(context);
 }

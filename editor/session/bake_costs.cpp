@@ -11,6 +11,7 @@
 #include "engine/pipeline/bake_plan.h"
 #include "engine/pipeline/bake_to_size.h"
 #include "engine/pipeline/knobs.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -70,12 +71,13 @@ Result<SizeProposal> fitSize(const BakeCostRequest& request, double bytes, TaskR
   if (const auto first = captureBytes(own.samplesPerDegree, true); !first)
     return tl::unexpected(first.error());
   const BakeForecast asItIs = tried[own.samplesPerDegree].forecast;
-  if (asItIs.cameras == 0) return fail(ErrorKind::invalidArgument, "there are no cells, so nothing to bake");
+  if (asItIs.cameras == 0)
+    return fail(ErrorKind::invalidArgument, tr("there are no cells, so nothing to bake"));
   if (bytes <= asItIs.lightBytes)
     return fail(ErrorKind::invalidArgument,
-                fmt::format("light on near geometry alone takes about {:.1f} MB: ask for more, or make the "
-                            "surface texel coarser",
-                            asItIs.lightBytes / 1e6));
+                trf("light on near geometry alone takes about {:.1f} MB: ask for more, or make the "
+                    "surface texel coarser",
+                    asItIs.lightBytes / 1e6));
   const auto fitted = fitResolution(
       own.samplesPerDegree, bytes - asItIs.lightBytes, kSizeTolerance,
       [&](double samples) { return captureBytes(samples, true); },
@@ -127,7 +129,7 @@ void BakeCosts::predictNext() {
   for (const BakePreset preset : kBakePresets) all.push_back(withPreset(own, preset));
   const auto next = std::ranges::find_if(all, [&](const BakeSettings& bake) { return of(bake) == nullptr; });
   if (next == all.end()) return;
-  predicting_.restart("Predicting bakes",
+  predicting_.restart(tr("Predicting bakes"),
                       [this, request = *request_, bake = *next](const Job::Context& context) {
                         lowerThreadPriority();
                         TaskRunner runner(request.threads - 1);
@@ -152,7 +154,7 @@ void BakeCosts::propose(double bytes) {
   predicting_.abandon();  // it would compete, and goes on afterwards
   proposal_.reset();
   sizeTrouble_.clear();
-  sizing_.restart("Looking for a resolution",
+  sizing_.restart(tr("Looking for a resolution"),
                   [this, request = *request_, bytes](const Job::Context& context) {
                     lowerThreadPriority();
                     TaskRunner runner(request.threads - 1);

@@ -4,6 +4,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/pipeline/bake_plan.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -31,19 +32,19 @@ BakeState stateOf(const Region& region, const CaptureStatus& status, const BakeM
 const char* nameOf(BakeState state) {
   switch (state) {
     case BakeState::missing:
-      return "missing";
+      return tr("missing");
     case BakeState::partial:
-      return "partly";
+      return tr("partly");
     case BakeState::stale:
-      return "stale";
+      return tr("stale");
     case BakeState::baked:
-      return "done";
+      return tr("done");
     case BakeState::baking:
-      return "baking";
+      return tr("baking");
     case BakeState::failed:
       break;
   }
-  return "failed";
+  return tr("failed");
 }
 
 CaptureStatus captureStatus(const Layout& layout, CapturesOnDisk there) {

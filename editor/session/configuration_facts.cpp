@@ -5,25 +5,26 @@
 
 #include "engine/bake/bake.h"
 #include "engine/geometry/conventions.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
 const char* adviceOn(Configuration configuration) {
   switch (configuration) {
     case Configuration::a:
-      return "Wide rings, so few regions to cross: large, open floors";
+      return tr("Wide rings, so few regions to cross: large, open floors");
     case Configuration::b:
-      return "The fewest cameras for the area: a good first choice for rooms";
+      return tr("The fewest cameras for the area: a good first choice for rooms");
     case Configuration::c:
-      return "A panorama at each corner: hardly any holes, about three times the cameras of b";
+      return tr("A panorama at each corner: hardly any holes, about three times the cameras of b");
     case Configuration::d:
-      return "Right angles: rectangular rooms and corridors";
+      return tr("Right angles: rectangular rooms and corridors");
     case Configuration::e:
-      return "Right angles and a panorama at each corner: least holes, most to bake; cells can be split";
+      return tr("Right angles and a panorama at each corner: least holes, most to bake; cells can be split");
     case Configuration::f:
-      return "The lattice of b with its rings in the triangles: twice the cameras";
+      return tr("The lattice of b with its rings in the triangles: twice the cameras");
     case Configuration::g:
-      return "Small cells and a panorama at each corner: crowded places; cells can be split";
+      return tr("Small cells and a panorama at each corner: crowded places; cells can be split");
   }
   return "";
 }

@@ -2,22 +2,24 @@
 
 #include <numeric>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 
 const char* nameOf(FramePart part) {
   switch (part) {
     case FramePart::plan:
-      return "plan";
+      return tr("plan");
     case FramePart::send:
-      return "send";
+      return tr("send");
     case FramePart::captures:
-      return "captures";
+      return tr("captures");
     case FramePart::local:
-      return "near polygons";
+      return tr("near polygons");
     case FramePart::fill:
-      return "fill";
+      return tr("fill");
     case FramePart::present:
-      return "window";
+      return tr("window");
   }
   return "";
 }
@@ -25,17 +27,17 @@ const char* nameOf(FramePart part) {
 const char* helpFor(FramePart part) {
   switch (part) {
     case FramePart::plan:
-      return "Choosing pieces and culling columns.";
+      return tr("Choosing pieces and culling columns.");
     case FramePart::send:
-      return "Packing captures and sending them to the graphics card.";
+      return tr("Packing captures and sending them to the graphics card.");
     case FramePart::captures:
-      return "From samples to pixels, the background too.";
+      return tr("From samples to pixels, the background too.");
     case FramePart::local:
-      return "Local polygons within the near band.";
+      return tr("Local polygons within the near band.");
     case FramePart::fill:
-      return "Filling what is still open.";
+      return tr("Filling what is still open.");
     case FramePart::present:
-      return "Handing the window to the graphics card and showing it, once for each picture of the walk.";
+      return tr("Handing the window to the graphics card and showing it, once for each picture of the walk.");
   }
   return "";
 }

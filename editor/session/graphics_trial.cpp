@@ -6,6 +6,7 @@
 #include <array>
 
 #include "engine/measure/compare.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -35,7 +36,7 @@ std::string GraphicsTrial::judge(const Frame& processor, const Frame& card, Grap
   refuse(graphics);
   if (likeness >= kLeastLikeness && faster) state_ = State::passed;
   if (likeness >= kLeastLikeness) return {};
-  return fmt::format(
+  return trf(
       "The graphics card draws this walk differently than the processor ({:.1f} dB; {:.0f} are expected), "
       "which goes on drawing it. A newer graphics driver may help.",
       likeness, kLeastLikeness);

@@ -4,6 +4,7 @@
 
 #include "editor/session/project_size.h"
 #include "engine/base/contract.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -18,7 +19,7 @@ History::Entry History::makeEntry(Project project, std::string label) {
 History::History(Project initial, bool saved, std::size_t mostBytes)
     : mostBytes_(mostBytes), everSaved_(saved) {
   if (saved) saved_ = initial;
-  entries_.push_back(makeEntry(std::move(initial), "Open"));
+  entries_.push_back(makeEntry(std::move(initial), tr("Open")));
   forgetOldest();
   compareWithSaved();
 }

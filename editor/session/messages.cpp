@@ -5,6 +5,8 @@
 #include <ctime>
 #include <utility>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
@@ -22,8 +24,8 @@ void Messages::add(MessageLevel level, std::string text) {
 }
 
 void Messages::addFailure(const std::string& what, const Error& error) {
-  if (error.kind == ErrorKind::cancelled) return add(MessageLevel::info, what + " was cancelled");
-  add(MessageLevel::error, what + " failed. " + error.describe());
+  if (error.kind == ErrorKind::cancelled) return add(MessageLevel::info, trf("{} was cancelled", what));
+  add(MessageLevel::error, trf("{} failed. {}", what, error.describe()));
   all_.back().modal = true;
   fresh_.back().modal = true;
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 
 void PictureAsk::clear() {
@@ -15,8 +17,8 @@ void PictureAsk::clear() {
 void PictureAsk::ask(const PictureQuestion& question) {
   clear();
   question_ = question;
-  job_.restart("Asking the picture", [this, asked = question, threads = threads_,
-                                      host = host_](const Job::Context& context) {
+  job_.restart(tr("Asking the picture"), [this, asked = question, threads = threads_,
+                                          host = host_](const Job::Context& context) {
     TaskRunner runner(threads - 1);
     const auto fail = [&](const Error& error) {
       context.post([this, text = error.describe()] { problem_ = text; });

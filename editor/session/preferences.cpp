@@ -11,6 +11,7 @@
 #include "editor/session/settings_file.h"
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -134,15 +135,16 @@ Preferences loadPreferences(const fs::path& file, std::string* problem) {
   const auto text = readText(file, kLargestPreferences);
   if (!text) {
     if (problem != nullptr && text.error().kind != ErrorKind::notFound)
-      *problem = "The preferences cannot be read: " + text.error().describe();
+      *problem = trf("The preferences cannot be read: {}", text.error().describe());
     return preferences;
   }
   const Json json = parseJson<Json>(*text).value_or(Json());
   if (!json.is_object()) {
     const fs::path aside = putAside(file);
     if (problem != nullptr)
-      *problem = "The preferences were damaged and begin anew" +
-                 (aside.empty() ? std::string(".") : "; the old ones are in " + aside.string());
+      *problem = aside.empty() ? tr("The preferences were damaged and begin anew.")
+                               : trf("The preferences were damaged and begin anew; the old ones are in {}",
+                                     aside.string());
     return preferences;
   }
   if (const auto recent = json.find("recent"); recent != json.end() && recent->is_array())
@@ -165,6 +167,7 @@ Preferences loadPreferences(const fs::path& file, std::string* problem) {
   readNumber(json, "autosaveSeconds", preferences.autosaveSeconds, P::kLeastAutosaveSeconds,
              P::kMostAutosaveSeconds);
   readName(json, "theme", preferences.theme, kThemes);
+  if (const std::string code = textOf(json, "language"); isLanguage(code)) preferences.language = code;
   readNumber(json, "scalePercent", preferences.scalePercent, 0, P::kMostScalePercent);
   if (preferences.scalePercent > 0)
     preferences.scalePercent = std::max(preferences.scalePercent, P::kLeastScalePercent);
@@ -205,6 +208,7 @@ Status savePreferences(const Preferences& preferences, const fs::path& file) {
                      {"lookSensitivity", preferences.lookSensitivity},
                      {"invertLook", preferences.invertLook},
                      {"autosaveSeconds", preferences.autosaveSeconds},
+                     {"language", preferences.language},
                      {"theme", kThemes[std::size_t(preferences.theme)]},
                      {"scalePercent", preferences.scalePercent},
                      {"startUp", kStartUps[std::size_t(preferences.startUp)]},

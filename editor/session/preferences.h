@@ -57,7 +57,8 @@ struct Preferences {
   bool invertLook = false;     ///< moving the mouse up looks down
   double autosaveSeconds = 20;
   Theme theme = Theme::dark;
-  int scalePercent = 0;  ///< of the interface; 0 = as the display asks
+  std::string language = {};  ///< a code of ui/translate.h; empty: the system's
+  int scalePercent = 0;       ///< of the interface; 0 = as the display asks
   StartUp startUp = StartUp::sample;
   bool guideSeen = false;     ///< the guided start is not shown by itself any more
   float settingsWidth = 324;  ///< pixels of a display with 96 dpi, as the two below

@@ -6,7 +6,9 @@
 #include <map>
 #include <string_view>
 
+#include "editor/session/engine_texts.h"
 #include "engine/base/contract.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -14,13 +16,9 @@ namespace {
 using Problems = std::vector<Problem>;
 
 std::string nameOf(const Region& region) {
-  return region.id.slot == kFreeSlot ? fmt::format("Panorama {}", region.id.i)
-         : region.id.slot == 0       ? fmt::format("Cell ({}, {})", region.id.i, region.id.j)
-                               : fmt::format("Cell ({}, {}, {})", region.id.i, region.id.j, region.id.slot);
-}
-
-std::string plural(std::size_t count, const char* one, const char* many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
+  return region.id.slot == kFreeSlot ? trf("Panorama {}", region.id.i)
+         : region.id.slot == 0       ? trf("Cell ({}, {})", region.id.i, region.id.j)
+                                     : trf("Cell ({}, {}, {})", region.id.i, region.id.j, region.id.slot);
 }
 
 ProblemPlace placeOf(const Region& region, PlanLook look) {
@@ -60,31 +58,31 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
       const int of = finding.region >= 0        ? finding.region
                      : !finding.cameras.empty() ? regionOf[std::size_t(finding.cameras.front())]
                                                 : -1;
-      Problem problem{finding.severity, finding.reason,
+      Problem problem{finding.severity, engineText(finding.reason),
                       placeAt(finding.place, layout.spec.cellSize, PlanLook::checks)};
       const Region* region = of >= 0 ? &layout.regions[std::size_t(of)] : nullptr;
       if (region != nullptr) {
         problem.place.cells = {region->id};
-        problem.text = nameOf(*region) + ": " + finding.reason;
+        problem.text = nameOf(*region) + ": " + engineText(finding.reason);
       }
       if (finding.push) {
         const bool free = region != nullptr && region->id.slot == kFreeSlot;
-        problem.fix =
-            ProblemFix{fmt::format("{} {:.2f} m", free ? "Move" : "Shift", glm::length(*finding.push)), "",
-                       *finding.push, free ? std::optional(region->id.i) : std::nullopt};
+        problem.fix = ProblemFix{free ? trf("Move {:.2f} m", glm::length(*finding.push))
+                                      : trf("Shift {:.2f} m", glm::length(*finding.push)),
+                                 "", *finding.push, free ? std::optional(region->id.i) : std::nullopt};
       }
       problems.push_back(std::move(problem));
     }
     if (const std::size_t more = findings.size() - notes - listed; more > 0)
       problems.push_back({Severity::warning,
-                          fmt::format("{} more where cameras or cells stand badly", more),
+                          trf("{} more where cameras or cells stand badly", more),
                           {.look = PlanLook::checks}});
   }
   if (notes > 0)
-    problems.push_back(
-        {Severity::note,
-         plural(notes, "centre or cell is", "centres or cells are") + " worth a look in the placement checks",
-         {.look = PlanLook::checks}});
+    problems.push_back({Severity::note,
+                        trfMany("{} centre or cell is worth a look in the placement checks",
+                                "{} centres or cells are worth a look in the placement checks", notes, notes),
+                        {.look = PlanLook::checks}});
 }
 
 void addBudget(Problems& problems, const Inspection& inspection, const TriangleBudget& budget) {
@@ -92,24 +90,22 @@ void addBudget(Problems& problems, const Inspection& inspection, const TriangleB
   const Layout& layout = *inspection.layout;
   const auto over = inspection.budgets.over(std::size_t(budget.trianglesPerRegion));
   const Severity severity = budget.simplifies() ? Severity::note : Severity::warning;
-  const ProblemFix fix = canSplit(layout.spec.configuration) ? ProblemFix{"Split", "budget.split"}
-                                                             : ProblemFix{"Fit cells", "budget.fit"};
+  const ProblemFix fix = canSplit(layout.spec.configuration) ? ProblemFix{tr("Split"), "budget.split"}
+                                                             : ProblemFix{tr("Fit cells"), "budget.fit"};
   for (std::size_t i = 0; i < std::min(over.size(), kMostOfAKind); ++i) {
     const Region& region = layout.regions[std::size_t(over[i])];
     ProblemPlace place = placeOf(region, PlanLook::triangles);
     place.section = "Triangle budget";
-    problems.push_back(
-        {severity,
-         fmt::format("{} has {} triangles of local geometry, the budget is {}{}", nameOf(region),
-                     inspection.budgets.triangles[std::size_t(over[i])], budget.trianglesPerRegion,
-                     budget.simplifies() ? ": it is simplified" : ""),
-         std::move(place), budget.simplifies() ? std::nullopt : std::optional(fix)});
+    problems.push_back({severity,
+                        trf("{} has {} triangles of local geometry, the budget is {}{}", nameOf(region),
+                            inspection.budgets.triangles[std::size_t(over[i])], budget.trianglesPerRegion,
+                            budget.simplifies() ? tr(": it is simplified") : ""),
+                        std::move(place), budget.simplifies() ? std::nullopt : std::optional(fix)});
   }
   if (over.size() > kMostOfAKind)
-    problems.push_back(
-        {severity,
-         fmt::format("{} more cells are above the triangle budget", over.size() - kMostOfAKind),
-         {.look = PlanLook::triangles, .section = "Triangle budget"}});
+    problems.push_back({severity,
+                        trf("{} more cells are above the triangle budget", over.size() - kMostOfAKind),
+                        {.look = PlanLook::triangles, .section = "Triangle budget"}});
 }
 
 void addLayout(Problems& problems, const Layout& layout) {
@@ -117,43 +113,45 @@ void addLayout(Problems& problems, const Layout& layout) {
       std::ranges::count_if(layout.regions, [](const Region& region) { return region.id.slot != kFreeSlot; });
   if (layout.regions.empty() && layout.spec.outline.empty())
     problems.push_back(
-        {Severity::error, "There is no outline and no cell: nowhere to walk", {.section = "Layout"}});
+        {Severity::error, tr("There is no outline and no cell: nowhere to walk"), {.section = "Layout"}});
   else if (laid == 0 && !layout.spec.outline.empty())
     problems.push_back({Severity::error,
-                        "There is no cell in the outline: all of them were removed",
+                        tr("There is no cell in the outline: all of them were removed"),
                         {.section = "Layout"}});
 }
 
 void addCaptures(Problems& problems, const ProblemFacts& facts) {
   for (const FailedCamera& failed : facts.failed) {
     Problem problem{Severity::error,
-                    fmt::format("Camera {} could not be baked: {}", failed.camera, failed.error),
+                    trf("Camera {} could not be baked: {}", failed.camera, failed.error),
                     {.bakeCameras = true},
-                    ProblemFix{"Bake", "bake.start"}};
+                    ProblemFix{tr("Bake"), "bake.start"}};
     problems.push_back(std::move(problem));
   }
   if (facts.captures == nullptr) return;
   const CaptureStatus& captures = *facts.captures;
   const std::size_t missing = captures.cameras.size() - std::size_t(captures.baked);
   const auto stale = std::size_t(std::ranges::count(captures.stale, true));
-  const ProblemFix bake{"Bake", "bake.start"};
+  const ProblemFix bake{tr("Bake"), "bake.start"};
   if (stale > 0)
-    problems.push_back(
-        {Severity::warning,
-         plural(stale, "capture is", "captures are") + " out of date: what is shown was changed since",
-         {.section = "Bake quality"},
-         bake});
+    problems.push_back({Severity::warning,
+                        trfMany("{} capture is out of date: what is shown was changed since",
+                                "{} captures are out of date: what is shown was changed since", stale, stale),
+                        {.section = "Bake quality"},
+                        bake});
   if (missing > stale)
     problems.push_back({captures.baked > 0 ? Severity::warning : Severity::note,
                         captures.baked == 0 && stale == 0
-                            ? "Nothing is baked yet"
-                            : plural(missing - stale, "capture is", "captures are") + " not baked yet",
+                            ? tr("Nothing is baked yet")
+                            : trfMany("{} capture is not baked yet", "{} captures are not baked yet",
+                                      missing - stale, missing - stale),
                         {},
                         bake});
   if (facts.previews > 0)
     problems.push_back({Severity::note,
-                        plural(std::size_t(facts.previews), "capture is", "captures are") +
-                            " only a preview or a draft so far",
+                        trfMany("{} capture is only a preview or a draft so far",
+                                "{} captures are only a preview or a draft so far",
+                                std::uint64_t(facts.previews), facts.previews),
                         {},
                         bake});
 }
@@ -162,22 +160,22 @@ void addScene(Problems& problems, const ProblemFacts& facts) {
   const std::string model = facts.built->project.scene.filename().string();
   if (facts.scene.state == SceneFiles::State::missing)
     problems.push_back({Severity::error,
-                        fmt::format("The model {} is not where it was; {}", model,
-                                    facts.scene.fromCache ? "it is shown as it was last imported"
-                                                          : "nothing of it can be shown"),
+                        trf("The model {} is not where it was; {}", model,
+                            facts.scene.fromCache ? tr("it is shown as it was last imported")
+                                                  : tr("nothing of it can be shown")),
                         {.section = "Scene"},
-                        ProblemFix{"Locate…", "file.locate"}});
+                        ProblemFix{tr("Locate…"), "file.locate"}});
   if (facts.scene.state == SceneFiles::State::changed)
-    problems.push_back({Severity::warning,
-                        fmt::format("{} changed on disk since it was imported",
-                                    facts.scene.changed.size() == 1
-                                        ? facts.scene.changed.front().filename().string()
-                                        : fmt::format("{} files of the model", facts.scene.changed.size())),
-                        {.section = "Scene"},
-                        ProblemFix{"Import again", "file.reimport"}});
+    problems.push_back(
+        {Severity::warning,
+         trf("{} changed on disk since it was imported",
+             facts.scene.changed.size() == 1 ? facts.scene.changed.front().filename().string()
+                                             : trf("{} files of the model", facts.scene.changed.size())),
+         {.section = "Scene"},
+         ProblemFix{tr("Import again"), "file.reimport"}});
   for (const std::string& line : facts.built->scene->report.ignored)
     if (line.starts_with("texture "))
-      problems.push_back({Severity::warning, "Not shown: " + line, {.section = "Scene"}});
+      problems.push_back({Severity::warning, trf("Not shown: {}", line), {.section = "Scene"}});
 }
 
 /// A scale that a person has chosen is not asked about.
@@ -185,30 +183,29 @@ void addScale(Problems& problems, const ProblemFacts& facts) {
   const auto& doubt = facts.inspection->scale;
   if (!doubt || facts.built->project.import.metresPerUnit > 0) return;
   problems.push_back({Severity::warning,
-                      fmt::format("Is the scale right? {}. If it is right, enter {:g} metres per unit",
-                                  doubt->text, facts.built->scene->report.metresPerUnit),
+                      trf("Is the scale right? {}. If it is right, enter {:g} metres per unit", doubt->text,
+                          facts.built->scene->report.metresPerUnit),
                       {.section = "Scene"},
-                      ProblemFix{.label = fmt::format("Scale to {:g}", doubt->metresPerUnit),
+                      ProblemFix{.label = trf("Scale to {:g}", doubt->metresPerUnit),
                                  .metresPerUnit = doubt->metresPerUnit}});
 }
 
 void addFiles(Problems& problems, const ProblemFacts& facts) {
   if (facts.lockedBy)
     problems.push_back({Severity::warning,
-                        "The project is read-only here: it is open at " + describe(*facts.lockedBy),
+                        trf("The project is read-only here: it is open at {}", describe(*facts.lockedBy)),
                         {},
-                        ProblemFix{"Save as…", "file.saveAs"}});
+                        ProblemFix{tr("Save as…"), "file.saveAs"}});
   if (facts.projectFileChanged)
     problems.push_back({Severity::warning,
-                        "Another program has changed the project's file",
+                        tr("Another program has changed the project's file"),
                         {},
-                        ProblemFix{"Reload", "file.reload"}});
+                        ProblemFix{tr("Reload"), "file.reload"}});
   if (facts.lost) problems.push_back({Severity::error, *facts.lost});
   if (facts.diskShort)
     problems.push_back(
-        {Severity::error,
-         fmt::format("The disk has {:.1f} GB free: too little for what the bake is expected to take",
-                     double(facts.freeBytes) / 1e9)});
+        {Severity::error, trf("The disk has {:.1f} GB free: too little for what the bake is expected to take",
+                              double(facts.freeBytes) / 1e9)});
 }
 
 }  // namespace
@@ -226,11 +223,10 @@ std::vector<Problem> findProblems(const ProblemFacts& facts) {
     addBudget(problems, *facts.inspection, facts.built->project.budget);
   }
   if (facts.foretoldHoles && *facts.foretoldHoles > kToleratedHoles)
-    problems.push_back(
-        {Severity::warning,
-         fmt::format("Captures will miss {:.1f} % of what is seen from the walkable area: holes",
-                     100 * *facts.foretoldHoles),
-         {.look = PlanLook::coverage}});
+    problems.push_back({Severity::warning,
+                        trf("Captures will miss {:.1f} % of what is seen from the walkable area: holes",
+                            100 * *facts.foretoldHoles),
+                        {.look = PlanLook::coverage}});
   std::ranges::stable_sort(problems, std::greater(), &Problem::severity);
   return problems;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "editor/session/capture_status.h"
+#include "editor/session/engine_texts.h"
 #include "editor/session/file_watch.h"
 #include "editor/session/inspection.h"
 #include "engine/pipeline/pipeline.h"
@@ -38,6 +39,7 @@ struct ProblemFacts {
   bool diskShort = false;                ///< for what the bake is expected to take
   std::uint64_t freeBytes = 0;           ///< of diskShort
   std::optional<std::string> lost = {};  ///< why work is not kept safe
+  std::string language = "en";           ///< in which they are told
   bool operator==(const ProblemFacts&) const = default;
 };
 

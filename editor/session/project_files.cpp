@@ -5,6 +5,7 @@
 #include "engine/export/bundle.h"
 #include "engine/export/walk_read.h"
 #include "engine/pipeline/collect_model.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace fs = std::filesystem;
@@ -100,7 +101,8 @@ Result<int> shareCaptures(const fs::path& from, const fs::path& to) {
   if (source == target || !fs::is_directory(source, error)) return 0;
   fs::create_directories(target, error);
   if (error)
-    return fail(ErrorKind::unreadable, "the folder cannot be made: " + error.message(), target.string());
+    return fail(ErrorKind::unreadable, trf("the folder cannot be made: {}", error.message()),
+                target.string());
   int added = 0;
   fs::directory_iterator it(source, error);
   for (; !error && it != fs::directory_iterator(); it.increment(error)) {

@@ -9,6 +9,7 @@
 #include "engine/base/priority.h"
 #include "engine/base/stopwatch.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -32,7 +33,7 @@ Result<std::string> checkPublicAddress(const std::string& typed) {
   const std::size_t scheme = address.find("://");
   const bool web = address.starts_with("http://") || address.starts_with("https://");
   if (address.empty() || (web && plain && address.size() > scheme + 3)) return address;
-  return fail(ErrorKind::invalidArgument, "is no address of a page: it begins with https:// or http://",
+  return fail(ErrorKind::invalidArgument, tr("is no address of a page: it begins with https:// or http://"),
               typed);
 }
 
@@ -54,8 +55,8 @@ void Publisher::close() {
 void Publisher::publish(std::shared_ptr<const OpenProject> open, const PublishPlace& place, bool allowMissing,
                         const ImportHost& host, int threads) {
   forgetAnswers();
-  job_.restart("Publishing", [this, open = std::move(open), place, allowMissing, page = page_, host,
-                              threads](const Job::Context& context) {
+  job_.restart(tr("Publishing"), [this, open = std::move(open), place, allowMissing, page = page_, host,
+                                  threads](const Job::Context& context) {
     lowerThreadPriority();  // the window comes first
     TaskRunner runner(threads - 1);
     std::optional<BakeGaps> asked;
@@ -83,7 +84,7 @@ Publisher::Outcome Publisher::write(const OpenProject& open, const PublishPlace&
   const auto missing = bakeGaps(*storeys);
   if (!missing) return tl::unexpected(missing.error());
   if (missing->cameras == 0)
-    return fail(ErrorKind::invalidArgument, "there are no cells, so there is nothing to publish");
+    return fail(ErrorKind::invalidArgument, tr("there are no cells, so there is nothing to publish"));
   if (missing->all() || (missing->any() && !allowMissing)) {
     asked = *missing;
     return fail(ErrorKind::notFound, missing->describe());
@@ -106,9 +107,10 @@ void Publisher::ended(const Outcome& outcome, const std::optional<BakeGaps>& ask
   if (!outcome) {
     const Error& error = outcome.error();
     if (error.kind == ErrorKind::cancelled)
-      return messages_.add(MessageLevel::info, "Publishing was cancelled; what was published before stays");
+      return messages_.add(MessageLevel::info,
+                           tr("Publishing was cancelled; what was published before stays"));
     trouble_ = error.describe();
-    return messages_.add(MessageLevel::error, "Publishing failed. " + trouble_);
+    return messages_.add(MessageLevel::error, trf("Publishing failed. {}", trouble_));
   }
   const bool elsewhere = published_ && published_->place.folder != outcome->place.folder;
   published_ = *outcome;
@@ -116,10 +118,9 @@ void Publisher::ended(const Outcome& outcome, const std::optional<BakeGaps>& ask
   const bool shown = serving();
   serve();
   const PublishReport& report = published_->report;
-  messages_.add(MessageLevel::good,
-                fmt::format("Published {} in {} files to {}{}", ui::formatBytes(report.bytes), report.files,
-                            published_->place.folder.string(),
-                            serving() ? fmt::format(", which is at {} now", address()) : std::string()));
+  messages_.add(MessageLevel::good, trf("Published {} in {} files to {}{}", ui::formatBytes(report.bytes),
+                                        report.files, published_->place.folder.string(),
+                                        serving() ? trf(", which is at {} now", address()) : std::string()));
   if (serving() && published_->place.openBrowser && !shown) openInBrowser();
 }
 
@@ -131,14 +132,14 @@ void Publisher::serve() {
   if (started)
     server_ = std::move(*started);
   else
-    messages_.add(MessageLevel::error, "It cannot be served here. " + started.error().describe());
+    messages_.add(MessageLevel::error, trf("It cannot be served here. {}", started.error().describe()));
 }
 
 /// Elsewhere: browsers hold their connections for a while.
 void Publisher::stopServing() {
   if (server_)
-    stopping_.restart("Stopping the server", [old = std::shared_ptr<FolderServer>(std::move(server_))](
-                                                 const Job::Context&) mutable { old.reset(); });
+    stopping_.restart(tr("Stopping the server"), [old = std::shared_ptr<FolderServer>(std::move(server_))](
+                                                     const Job::Context&) mutable { old.reset(); });
 }
 
 void Publisher::openInBrowser() {

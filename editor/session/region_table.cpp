@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 namespace {
 
@@ -75,7 +77,7 @@ void sortRows(std::vector<RegionRow>& rows, RegionColumn column, bool descending
 }
 
 std::string nameOf(const CellId& cell) {
-  if (cell.slot == kFreeSlot) return fmt::format("panorama {}", cell.i);
+  if (cell.slot == kFreeSlot) return trf("panorama {}", cell.i);
   std::string name = fmt::format("{}, {}", cell.i, cell.j);
   if (cell.slot != 0) name += fmt::format(", {}", cell.slot);
   if (cell.level != 0) name += fmt::format(" /{}", 1 << cell.level);
@@ -85,15 +87,15 @@ std::string nameOf(const CellId& cell) {
 const char* nameOf(RegionKind kind) {
   switch (kind) {
     case RegionKind::ring:
-      return "ring";
+      return tr("ring");
     case RegionKind::gapTriangle:
-      return "gap, triangle";
+      return tr("gap, triangle");
     case RegionKind::gapSquare:
-      return "gap, square";
+      return tr("gap, square");
     case RegionKind::gapHexagon:
       break;
   }
-  return "gap, hexagon";
+  return tr("gap, hexagon");
 }
 
 }  // namespace acentric::editor

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "ui/translate.h"
+
 namespace acentric::editor {
 
 std::string capturesAwaitedText(const FrameStats& stats) {
   if (stats.capturesAwaited == 0) return {};
   const int missing = stats.capturesAwaited - stats.standIns;
-  return fmt::format("{} captures on their way to the graphics card", stats.capturesAwaited) +
-         (missing > 0 ? fmt::format(", {} with nothing in their place", missing) : "");
+  return trf("{} captures on their way to the graphics card", stats.capturesAwaited) +
+         (missing > 0 ? trf(", {} with nothing in their place", missing) : "");
 }
 
 }  // namespace acentric::editor

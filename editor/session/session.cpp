@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "editor/session/screenshot.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace fs = std::filesystem;
@@ -50,7 +51,7 @@ bool onlyShownOtherwise(const Project& a, const Project& b) {
 }  // namespace
 
 bool Session::walkRefuses(const std::string& what) {
-  if (shipped_) messages_.add(MessageLevel::warning, what + ": " + kIsWalk);
+  if (shipped_) messages_.add(MessageLevel::warning, what + ": " + tr(kIsWalk));
   return shipped_ != nullptr;
 }
 
@@ -120,14 +121,14 @@ void Session::cancelLive() {
 
 void Session::undo() {
   if (!hasProject() || !history_->canUndo()) return;
-  messages_.add(MessageLevel::info, "Undone: " + history_->undoLabel());
+  messages_.add(MessageLevel::info, trf("Undone: {}", history_->undoLabel()));
   history_->undo();
   projectChanged();
 }
 
 void Session::redo() {
   if (!hasProject() || !history_->canRedo()) return;
-  messages_.add(MessageLevel::info, "Done again: " + history_->redoLabel());
+  messages_.add(MessageLevel::info, trf("Done again: {}", history_->redoLabel()));
   history_->redo();
   projectChanged();
 }
@@ -135,7 +136,7 @@ void Session::redo() {
 void Session::goTo(std::size_t entry) {
   if (!hasProject() || entry >= history_->size() || entry == history_->cursor()) return;
   history_->goTo(entry);
-  messages_.add(MessageLevel::info, "Gone to: " + history_->label(history_->cursor()));
+  messages_.add(MessageLevel::info, trf("Gone to: {}", history_->label(history_->cursor())));
   projectChanged();
 }
 
@@ -146,7 +147,7 @@ void Session::walkInto(int storey) {
   keepWalkUntil_ = now_ + kMostSeconds;
   if (shipped_ || rebuilding_.running()) return rebuild();
   auto open = reopenProject(*built_, project(), options_.importHost);
-  if (!open) return messages_.addFailure("Walking to " + project().current().name, open.error());
+  if (!open) return messages_.addFailure(trf("Walking to {}", project().current().name), open.error());
   show(std::move(*open));
   loadCaptures();
   drawBackdropIfStale();
@@ -175,23 +176,24 @@ void Session::rebuild() {
     show(openProject(*shipped_, project()));
     return loadCaptures();
   }
-  rebuilding_.restart("Laying the tessellation", [this, former = built_, wanted = project(),
-                                                  host = options_.importHost](const Job::Context& context) {
-    auto result = reopenProject(*former, wanted, host, context.progress(), context.stop());
-    std::error_code error;
-    const bool gone = !fs::exists(sceneFileOf(former->file, wanted), error);
-    const bool withoutModel = !result && gone;
-    if (withoutModel)
-      result = openWithoutModel(former->file, wanted, host, context.progress(), context.stop());
-    context.post([this, gone, result = std::make_shared<Result<OpenProject>>(std::move(result))] {
-      if (*result) return rebuilt(std::move(**result), gone);
-      if (result->error().kind != ErrorKind::cancelled) giveUpBuilding(result->error());
-    });
-  });
+  rebuilding_.restart(
+      tr("Laying the tessellation"),
+      [this, former = built_, wanted = project(), host = options_.importHost](const Job::Context& context) {
+        auto result = reopenProject(*former, wanted, host, context.progress(), context.stop());
+        std::error_code error;
+        const bool gone = !fs::exists(sceneFileOf(former->file, wanted), error);
+        const bool withoutModel = !result && gone;
+        if (withoutModel)
+          result = openWithoutModel(former->file, wanted, host, context.progress(), context.stop());
+        context.post([this, gone, result = std::make_shared<Result<OpenProject>>(std::move(result))] {
+          if (*result) return rebuilt(std::move(**result), gone);
+          if (result->error().kind != ErrorKind::cancelled) giveUpBuilding(result->error());
+        });
+      });
 }
 
 void Session::giveUpBuilding(const Error& error) {
-  messages_.addFailure(history_->undoLabel().empty() ? "The change" : history_->undoLabel(), error);
+  messages_.addFailure(history_->undoLabel().empty() ? tr("The change") : history_->undoLabel(), error);
   if (!history_->canRedo() && history_->canUndo())
     history_->discardCurrent();
   else if (const auto shown = history_->find(built_->project))
@@ -234,13 +236,14 @@ void Session::loadCaptures() {
   streaming.panoramas = project().view.secondaryCover;
   streaming.where = where_;
   streaming.wake = options_.wake;
-  loading_.restart("Looking for captures", [this, open = built_, former = walk_, shipped = shipped_, before,
-                                            streaming](const Job::Context& context) {
+  loading_.restart(tr("Looking for captures"), [this, open = built_, former = walk_, shipped = shipped_,
+                                                before, streaming](const Job::Context& context) {
     tellCaptures(open, shipped, context);
     Result<WalkStart> start =
         shipped ? startWalk(shipped, open->project.storey, former.get()) : startWalk(*open, former.get());
     if (!start) {
-      context.post([this, error = start.error()] { messages_.addFailure("Loading the captures", error); });
+      context.post(
+          [this, error = start.error()] { messages_.addFailure(tr("Loading the captures"), error); });
       return;
     }
     if (before.walk && before.walk->walk.layout != open->layout) takeOver(*before.walk, before.held, *start);
@@ -255,7 +258,7 @@ std::size_t Session::walkBytes() const {
 }
 
 void Session::countCaptures() {
-  counting_.restart("Counting captures",
+  counting_.restart(tr("Counting captures"),
                     [this, open = built_, shipped = shipped_](const Job::Context& context) {
                       tellCaptures(open, shipped, context);
                     });
@@ -287,8 +290,7 @@ void Session::followStream() {
     for (std::size_t w = 0; w < std::min(kEach, warnings.size()); ++w)
       messages_.add(MessageLevel::warning, warnings[w]);
     if (warnings.size() > kEach)
-      messages_.add(MessageLevel::warning,
-                    fmt::format("... and {} more like these", warnings.size() - kEach));
+      messages_.add(MessageLevel::warning, trf("... and {} more like these", warnings.size() - kEach));
     countCaptures();  // what could not be read is no longer there
   }
   if (walk_->simplified.empty() || stream_->busy()) return;
@@ -300,7 +302,7 @@ void Session::followStream() {
 
 void Session::dropStream() {
   if (stream_)
-    dropping_.restart("Closing the walk",
+    dropping_.restart(tr("Closing the walk"),
                       [old = std::move(stream_)](const Job::Context&) mutable { old.reset(); });
   stream_.reset();
 }
@@ -329,14 +331,14 @@ bool Session::isAround(const glm::dvec2& place) {
 }
 
 void Session::readAround(const glm::dvec2& place) {
-  reading_.restart("Reading the walk", [this, shipped = shipped_, storey = built_->project.storey,
-                                        place](const Job::Context& context) {
+  reading_.restart(tr("Reading the walk"), [this, shipped = shipped_, storey = built_->project.storey,
+                                            place](const Job::Context& context) {
     const auto there = placeAround(shipped, storey, place);
     context.post([this, shipped, storey, place, there] {
       if (shipped_ != shipped) return;
       lookedFor_ = place;
       if (there && *there != shipped) return arrived(*there);
-      if (!there) messages_.addFailure("Reading the walk", there.error());
+      if (!there) messages_.addFailure(tr("Reading the walk"), there.error());
       const Layout& layout = *shipped->layouts[std::size_t(storey)];
       if (const auto region = layout.regionAt(place))
         readFrom_.emplace(storey, layout.regions[std::size_t(*region)].id.i);
@@ -356,16 +358,16 @@ void Session::walkMemoryChanged() {
 }
 
 void Session::savePicture(ColourImage picture) {
-  savingPicture_.restart("Writing the picture",
-                         [this, file = file_, picture = std::move(picture)](const Job::Context& context) {
-                           auto written = writeScreenshot(picture, file);
-                           context.post([this, written] {
-                             if (written)
-                               messages_.add(MessageLevel::good, "The picture is in " + written->string());
-                             else
-                               messages_.addFailure("Writing the picture", written.error());
-                           });
-                         });
+  savingPicture_.restart(tr("Writing the picture"), [this, file = file_, picture = std::move(picture)](
+                                                        const Job::Context& context) {
+    auto written = writeScreenshot(picture, file);
+    context.post([this, written] {
+      if (written)
+        messages_.add(MessageLevel::good, trf("The picture is in {}", written->string()));
+      else
+        messages_.addFailure(tr("Writing the picture"), written.error());
+    });
+  });
 }
 
 void Session::drawBackdropIfStale() {
@@ -378,8 +380,8 @@ void Session::drawBackdropIfStale() {
                       key.box.max.x <= backdropKey_.box.max.x && key.box.max.y <= backdropKey_.box.max.y;
   if (inside) return;
   backdropKey_ = key;
-  drawingBackdrop_.restart("Drawing the plan", [this, key, rays = built_->rays,
-                                                threads = bakeThreads()](const Job::Context& context) {
+  drawingBackdrop_.restart(tr("Drawing the plan"), [this, key, rays = built_->rays,
+                                                    threads = bakeThreads()](const Job::Context& context) {
     TaskRunner runner(threads - 1);
     for (const int pixels : {256, 1400}) {  // a coarse one at once, then the fine one
       auto drawn = drawBackdrop(*rays, key.cutHeight, key.box, pixels, runner, context.stop());
@@ -413,15 +415,15 @@ void Session::inspectWhenStill(double now) {
 void Session::inspectIfStale() {
   if (!built_ || shipped_ || inspected_ == built_->layout) return;
   inspected_ = built_->layout;
-  inspecting_.restart("Inspecting the layout", [this, open = built_, inspector = inspector_,
-                                                threads = bakeThreads()](const Job::Context& context) {
+  inspecting_.restart(tr("Inspecting the layout"), [this, open = built_, inspector = inspector_,
+                                                    threads = bakeThreads()](const Job::Context& context) {
     TaskRunner runner(threads - 1);
     auto made = inspector->inspect(*open, runner, context.progress(), context.stop());
     context.post([this, made = std::make_shared<Result<Inspection>>(std::move(made))] {
       if (*made)
         inspection_ = std::make_shared<const Inspection>(std::move(**made));
       else if (made->error().kind != ErrorKind::cancelled)
-        messages_.addFailure("Inspecting the layout", made->error());
+        messages_.addFailure(tr("Inspecting the layout"), made->error());
     });
   });
 }
@@ -433,7 +435,7 @@ void Session::askForWalls(bool wanted) {
   if (wallsKey_ == key) return;
   wallsKey_ = key;
   walls_.reset();
-  slicingWalls_.restart("Looking for walls", [this, key](const Job::Context& context) {
+  slicingWalls_.restart(tr("Looking for walls"), [this, key](const Job::Context& context) {
     auto walls = std::make_shared<const WallSlice>(sliceWalls(*key.scene, key.height, context.stop()));
     context.post([this, walls] { walls_ = walls; });
   });
@@ -458,21 +460,23 @@ void Session::askForCoverage(const std::optional<CoverageRequest>& wanted) {
                         *wanted};
   if (coverageKey_ == key) return;
   coverageKey_ = key;
-  measuringCoverage_.restart("Measuring coverage", [this, open = built_, request = *wanted,
-                                                    threads = bakeThreads()](const Job::Context& context) {
-    TaskRunner runner(threads - 1);
-    const Status measured = measureCoverage(
-        *open, request, runner,
-        [&](const CoveragePicturePtr& picture) {
-          context.post([this, picture] {
-            coverage_ = picture;
-            if (picture->exact && picture->surfaces) foretold_ = picture;
-          });
-        },
-        context.stop());
-    if (!measured && measured.error().kind != ErrorKind::cancelled)
-      context.post([this, error = measured.error()] { messages_.addFailure("Measuring coverage", error); });
-  });
+  measuringCoverage_.restart(
+      tr("Measuring coverage"),
+      [this, open = built_, request = *wanted, threads = bakeThreads()](const Job::Context& context) {
+        TaskRunner runner(threads - 1);
+        const Status measured = measureCoverage(
+            *open, request, runner,
+            [&](const CoveragePicturePtr& picture) {
+              context.post([this, picture] {
+                coverage_ = picture;
+                if (picture->exact && picture->surfaces) foretold_ = picture;
+              });
+            },
+            context.stop());
+        if (!measured && measured.error().kind != ErrorKind::cancelled)
+          context.post(
+              [this, error = measured.error()] { messages_.addFailure(tr("Measuring coverage"), error); });
+      });
 }
 
 ScenePickPtr Session::scenePick() const {
@@ -491,10 +495,11 @@ void Session::askForPick(const std::optional<SurfacePoint>& wanted) {
   const PickKey key{built_, wanted->position};
   if (pickKey_ == key) return;
   pickKey_ = key;
-  picking_.restart("Asking the cameras", [this, open = built_, point = *wanted](const Job::Context& context) {
-    auto pick = std::make_shared<const ScenePick>(pickOf(open, point));
-    context.post([this, pick] { pick_ = pick; });
-  });
+  picking_.restart(tr("Asking the cameras"),
+                   [this, open = built_, point = *wanted](const Job::Context& context) {
+                     auto pick = std::make_shared<const ScenePick>(pickOf(open, point));
+                     context.post([this, pick] { pick_ = pick; });
+                   });
 }
 
 }  // namespace acentric::editor

@@ -45,6 +45,7 @@
 #include "engine/pipeline/project_lock.h"
 #include "engine/pipeline/shipped_walk.h"
 #include "engine/pipeline/walk_stream.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -494,6 +495,6 @@ class Session {
 bool onlyViewDiffers(const Project& a, const Project& b);
 
 /// Why what needs a project cannot be done.
-inline constexpr const char* kIsWalk = "this is a walk: open its project to edit it";
+inline constexpr const char* kIsWalk = trLater("this is a walk: open its project to edit it");
 
 }  // namespace acentric::editor

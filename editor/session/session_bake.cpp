@@ -10,6 +10,7 @@
 #include "engine/base/priority.h"
 #include "engine/pipeline/bake_guard.h"
 #include "engine/pipeline/estimate_bake.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -86,32 +87,33 @@ int Session::bakeThreads() const {
 }
 
 void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
-  if (!built_ || baking_.running() || walkRefuses("Baking")) return;
+  if (!built_ || baking_.running() || walkRefuses(tr("Baking"))) return;
   estimating_.abandon();  // it would compete; the bake predicts for itself
   bakeQueue_.begin({});
   bakeForecast_.reset();
   neededBytes_.reset();
   bakeGate_.open();
-  baking_.restart("Baking", [this, open = built_, from, takeOver, known = forecastOfEstimate(),
-                             threads = bakeThreads(),
-                             memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
-                             host = options_.importHost](const Job::Context& context) {
-    lowerThreadPriority();  // the window comes first
-    TaskRunner runner(threads - 1, &bakeGate_);
-    auto guard = BakeGuard::begin(
-        open->file, {{}, takeOver, "wait until it has ended, or take over its bake (Walk, Take over bake)"});
-    Result<ProjectBakeReport> report;
-    if (guard) {
-      // Whether it had changed before is told elsewhere: what is shown may be baked all the same.
-      guard->watch(modelFiles(open->file, open->project, host, std::filesystem::file_time_type::max()));
-      if (!guard->note().empty())
-        context.post([this, note = guard->note()] { messages_.add(MessageLevel::warning, note); });
-      report = bakeStoreys(*open, from, known, memory, host, *guard, runner, context);
-    } else {
-      report = tl::unexpected(guard.error());
-    }
-    context.post([this, report] { bakeEnded(report); });
-  });
+  baking_.restart(
+      tr("Baking"), [this, open = built_, from, takeOver, known = forecastOfEstimate(),
+                     threads = bakeThreads(), memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
+                     host = options_.importHost](const Job::Context& context) {
+        lowerThreadPriority();  // the window comes first
+        TaskRunner runner(threads - 1, &bakeGate_);
+        auto guard = BakeGuard::begin(
+            open->file,
+            {{}, takeOver, tr("wait until it has ended, or take over its bake (Walk, Take over bake)")});
+        Result<ProjectBakeReport> report;
+        if (guard) {
+          // Whether it had changed before is told elsewhere: what is shown may be baked all the same.
+          guard->watch(modelFiles(open->file, open->project, host, std::filesystem::file_time_type::max()));
+          if (!guard->note().empty())
+            context.post([this, note = guard->note()] { messages_.add(MessageLevel::warning, note); });
+          report = bakeStoreys(*open, from, known, memory, host, *guard, runner, context);
+        } else {
+          report = tl::unexpected(guard.error());
+        }
+        context.post([this, report] { bakeEnded(report); });
+      });
 }
 
 /// Progress runs from 0 to 1 over all storeys.
@@ -191,16 +193,15 @@ void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
   loadWanted_ = true;
   nextLoad_ = 0;
   if (!report && report.error().kind == ErrorKind::cancelled)
-    return messages_.add(MessageLevel::info,
-                         fmt::format("Baking was cancelled: {} captures and {} previews are kept", finished,
-                                     bakeQueue_.previewed()));
-  if (!report) return messages_.addFailure("Baking", report.error());
+    return messages_.add(MessageLevel::info, trf("Baking was cancelled: {} captures and {} previews are kept",
+                                                 finished, bakeQueue_.previewed()));
+  if (!report) return messages_.addFailure(tr("Baking"), report.error());
   lastBake_ = *report;
   const BakeReport& captures = report->captures;
-  messages_.add(MessageLevel::good, "Baked " + std::to_string(captures.baked) + " captures, " +
-                                        std::to_string(captures.reused) + " were there already");
+  messages_.add(MessageLevel::good,
+                trf("Baked {} captures, {} were there already", captures.baked, captures.reused));
   for (const std::string& refused : report->refused)
-    messages_.add(MessageLevel::error, "Baked, and could not be written: " + refused);
+    messages_.add(MessageLevel::error, trf("Baked, and could not be written: {}", refused));
 }
 
 void Session::estimateBake() { estimateBake(false); }
@@ -208,11 +209,11 @@ void Session::estimateBake() { estimateBake(false); }
 void Session::glanceAtBake() { estimateBake(true); }
 
 void Session::estimateBake(bool glance) {
-  if (!built_ || baking_.running() || walkRefuses("Estimating the bake")) return;
+  if (!built_ || baking_.running() || walkRefuses(tr("Estimating the bake"))) return;
   estimate_.reset();
-  estimating_.restart("Estimating the bake", [this, glance, open = built_, threads = bakeThreads(),
-                                              memory = std::size_t(preferences_.bakeMegabytes) *
-                                                       1'000'000](const Job::Context& context) {
+  estimating_.restart(tr("Estimating the bake"), [this, glance, open = built_, threads = bakeThreads(),
+                                                  memory = std::size_t(preferences_.bakeMegabytes) *
+                                                           1'000'000](const Job::Context& context) {
     const std::vector<bool> baked = bakedCameras(*open);
     std::vector<int> missing;
     for (std::size_t camera = 0; camera < baked.size(); ++camera)
@@ -229,7 +230,7 @@ void Session::estimateBake(bool glance) {
     const EffectCosts costs =
         measureEffectCosts(*open->rays, *open->layout, open->project.bake, context.stop());
     context.post([this, open, threads, estimate, costs] {
-      if (!estimate) return messages_.addFailure("Estimating the bake", estimate.error());
+      if (!estimate) return messages_.addFailure(tr("Estimating the bake"), estimate.error());
       estimate_ = Estimate{open, threads, *estimate, costs};
     });
   });

@@ -8,6 +8,7 @@
 #include "editor/session/project_files.h"
 #include "editor/session/session.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace fs = std::filesystem;
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 Result<Session::Opened> Session::openNow(const fs::path& file, const NewProjectOptions& options,
                                          const Job::Context& context) const {
   std::error_code error;
-  if (!fs::exists(file, error)) return fail(ErrorKind::notFound, "no such file", file.string());
+  if (!fs::exists(file, error)) return fail(ErrorKind::notFound, tr("no such file"), file.string());
   if (const fs::path walk = shippedWalkOf(file); !walk.empty()) return openShipped(walk, context);
   Opened opened;
   fs::path projectFile = file;
@@ -68,18 +69,19 @@ void Session::openWith(const fs::path& given, const NewProjectOptions& options) 
   const fs::path absolute = fs::absolute(given, error);
   const fs::path file = error ? given : absolute.lexically_normal();
   outsideModel_.reset();
-  opening_.restart("Opening " + file.filename().string(), [this, file, options](const Job::Context& context) {
-    auto result = openNow(file, options, context);
-    const auto outside = !result && isProjectFile(file) ? sceneOutside(file) : std::nullopt;
-    context.post([this, file, outside, result = std::make_shared<Result<Opened>>(std::move(result))] {
-      if (*result) return opened(std::move(**result));
-      if (outside) {
-        outsideModel_ = {file, *outside};
-        return;
-      }
-      messages_.addFailure("Opening " + file.filename().string(), result->error());
-    });
-  });
+  opening_.restart(
+      trf("Opening {}", file.filename().string()), [this, file, options](const Job::Context& context) {
+        auto result = openNow(file, options, context);
+        const auto outside = !result && isProjectFile(file) ? sceneOutside(file) : std::nullopt;
+        context.post([this, file, outside, result = std::make_shared<Result<Opened>>(std::move(result))] {
+          if (*result) return opened(std::move(**result));
+          if (outside) {
+            outsideModel_ = {file, *outside};
+            return;
+          }
+          messages_.addFailure(trf("Opening {}", file.filename().string()), result->error());
+        });
+      });
 }
 
 void Session::opened(Opened opened) {
@@ -99,16 +101,16 @@ void Session::opened(Opened opened) {
   }
   remember(file_);
   const std::size_t cameras = opened.open.layout->cameras.size();
-  std::string size = fmt::format("{} regions, {} cameras", opened.open.layout->regions.size(), cameras);
+  std::string size = trf("{} regions, {} cameras", opened.open.layout->regions.size(), cameras);
   if (shipped_ && shipped_->pages)
-    size = fmt::format("{} regions, of which those around the eye are shown",
-                       ui::formatCount(shipped_->regionCount(opened.open.project.storey)));
+    size = trf("{} regions, of which those around the eye are shown",
+               ui::formatCount(shipped_->regionCount(opened.open.project.storey)));
   show(std::move(opened.open));
-  const std::string from = !untitled_ ? "Opened " + file_.filename().string()
+  const std::string from = !untitled_ ? trf("Opened {}", file_.filename().string())
                            : recovered_.empty()
-                               ? "New project from " + built_->project.scene.filename().string()
-                               : "Recovered " + file_.filename().string();
-  messages_.add(MessageLevel::good, fmt::format("{}{}: {}", from, shipped_ ? ", a walk" : "", size));
+                               ? trf("New project from {}", built_->project.scene.filename().string())
+                               : trf("Recovered {}", file_.filename().string());
+  messages_.add(MessageLevel::good, fmt::format("{}{}: {}", from, shipped_ ? tr(", a walk") : "", size));
   if (shipped_)
     for (const std::string& warning : shipped_->warnings) messages_.add(MessageLevel::warning, warning);
   else
@@ -168,13 +170,14 @@ SaveObstacle Session::saveObstacle() {
 
 Status Session::save(bool overwrite) {
   if (!hasProject()) return {};
-  if (shipped_) return fail(ErrorKind::invalidArgument, kIsWalk, file_.string());
+  if (shipped_) return fail(ErrorKind::invalidArgument, tr(kIsWalk), file_.string());
   history_->commitPreview();
   const SaveObstacle obstacle = saveObstacle();
   if (obstacle == SaveObstacle::readOnly)
-    return fail(ErrorKind::unreadable, "is open in another editor: save under another name", file_.string());
+    return fail(ErrorKind::unreadable, tr("is open in another editor: save under another name"),
+                file_.string());
   if (obstacle == SaveObstacle::changedOnDisk && !overwrite)
-    return fail(ErrorKind::unreadable, "was changed by another program meanwhile", file_.string());
+    return fail(ErrorKind::unreadable, tr("was changed by another program meanwhile"), file_.string());
   if (Status saved = saveProject(project(), file_); !saved) return saved;
   forgetAutosave();
   untitled_ = false;
@@ -189,16 +192,16 @@ void Session::savedNow() {
   autosaved_.reset();
   if (!lock_) takeLock(true);
   remember(file_);
-  messages_.add(MessageLevel::good, "Saved " + file_.filename().string());
+  messages_.add(MessageLevel::good, trf("Saved {}", file_.filename().string()));
 }
 
 Status Session::reload() {
   if (!hasProject() || untitled_) return {};
-  if (shipped_) return fail(ErrorKind::invalidArgument, kIsWalk, file_.string());
+  if (shipped_) return fail(ErrorKind::invalidArgument, tr(kIsWalk), file_.string());
   const FileStamp stamp = stampOf(file_);
   const auto found = loadProject(file_);
   if (!found) return tl::unexpected(found.error());
-  if (!apply({*found, "Reload what another program saved"})) return {};
+  if (!apply({*found, tr("Reload what another program saved")})) return {};
   history_->markSaved();
   savedStamp_ = stamp;
   projectFileChanged_ = false;
@@ -207,22 +210,23 @@ Status Session::reload() {
 
 Status Session::saveAs(const fs::path& target) {
   if (!hasProject()) return {};
-  if (shipped_) return fail(ErrorKind::invalidArgument, kIsWalk, file_.string());
+  if (shipped_) return fail(ErrorKind::invalidArgument, tr(kIsWalk), file_.string());
   history_->commitPreview();
   std::error_code error;
   const fs::path file = fs::absolute(target, error).lexically_normal();
   const auto moved = movedProject(project(), file_, file, options_.importHost);
   if (!moved) return tl::unexpected(moved.error());
   if (const auto other = readLock(file); other && !isStale(*other) && !(lock_ && file == file_))
-    return fail(ErrorKind::unreadable, "is open in another editor, at " + describe(*other), file.string());
+    return fail(ErrorKind::unreadable, trf("is open in another editor, at {}", describe(*other)),
+                file.string());
   if (Status saved = saveProject(*moved, file); !saved) return saved;
   if (const auto shared = shareCaptures(file_, file); !shared)
-    messages_.add(MessageLevel::warning,
-                  "The captures stayed behind and have to be baked again. " + shared.error().describe());
+    messages_.add(MessageLevel::warning, trf("The captures stayed behind and have to be baked again. {}",
+                                             shared.error().describe()));
   forgetAutosave();
 
   if (moved->scene != project().scene)
-    messages_.add(MessageLevel::info, "The project's model is now " + moved->scene.string());
+    messages_.add(MessageLevel::info, trf("The project's model is now {}", moved->scene.string()));
   // The history speaks of the model's path as seen from the old folder: it begins anew when that changed.
   if (*moved != project()) history_.emplace(*moved, true, historyBytes());
   leaveLock();
@@ -242,20 +246,20 @@ Status Session::saveAs(const fs::path& target) {
 }
 
 void Session::exportPath(std::size_t path, const fs::path& file) {
-  if (walkRefuses("Exporting a path")) return;
+  if (walkRefuses(tr("Exporting a path"))) return;
   const WalkPath& walk = project().paths[path];
   if (const Status saved = savePath(walk.path, file); !saved)
-    return messages_.addFailure("Exporting " + walk.name, saved.error());
+    return messages_.addFailure(trf("Exporting {}", walk.name), saved.error());
   messages_.add(MessageLevel::good,
-                fmt::format("Exported {} as {}: acentric walk {} --path {}", walk.name,
-                            file.filename().string(), file_.filename().string(), file.filename().string()));
+                trf("Exported {} as {}: acentric walk {} --path {}", walk.name, file.filename().string(),
+                    file_.filename().string(), file.filename().string()));
 }
 
 std::string Session::title() const {
   if (!hasProject()) return "Acentric";
   return fmt::format("{}{}{} – Acentric", dirty() ? "• " : "", file_.filename().string(),
-                     shipped_     ? " (walk)"
-                     : readOnly() ? " (read-only)"
+                     shipped_     ? tr(" (walk)")
+                     : readOnly() ? tr(" (read-only)")
                                   : "");
 }
 
@@ -268,7 +272,7 @@ void Session::answerRecovery(bool recover) {
   if (!recovery_ || !hasProject()) return;
   const Project found = *std::exchange(recovery_, std::nullopt);
   if (recover) {
-    apply({found, "Recover unsaved changes"});
+    apply({found, tr("Recover unsaved changes")});
     nextAutosave_ = 0;  // from now on this editor's own autosave keeps it
   } else {
     forgetAutosave();
@@ -283,7 +287,7 @@ void Session::remember(const fs::path& file) {
 
 void Session::savePreferencesNow() {
   if (const Status saved = savePreferences(preferences_, options_.preferencesFile); !saved)
-    messages_.add(MessageLevel::warning, "Preferences are not kept. " + saved.error().describe());
+    messages_.add(MessageLevel::warning, trf("Preferences are not kept. {}", saved.error().describe()));
 }
 
 /// Beside the project, unless it has no file yet or the file is another editor's.
@@ -318,8 +322,9 @@ void Session::lookForAutosave() {
     return;
   }
   const fs::path aside = putAside(autosaveFileFor(file_));
-  messages_.add(MessageLevel::warning, "What the last run autosaved cannot be read, and is kept as " +
-                                           aside.filename().string() + ". " + found.error().describe());
+  messages_.add(MessageLevel::warning,
+                trf("What the last run autosaved cannot be read, and is kept as {}. {}",
+                    aside.filename().string(), found.error().describe()));
 }
 
 void Session::autosave(double now) {
@@ -340,8 +345,8 @@ void Session::keepWork() {
     if (!recovered_.empty() && recovered_ != autosaveFile()) fs::remove(recovered_, error);
     return;
   }
-  notKept_ = "Unsaved changes are not autosaved: " + written.error().describe();
-  messages_.add(MessageLevel::warning, "Autosave failed. " + written.error().describe());
+  notKept_ = trf("Unsaved changes are not autosaved: {}", written.error().describe());
+  messages_.add(MessageLevel::warning, trf("Autosave failed. {}", written.error().describe()));
 }
 
 }  // namespace acentric::editor

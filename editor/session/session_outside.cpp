@@ -6,6 +6,7 @@
 #include "editor/commands/setting_edits.h"
 #include "editor/session/project_files.h"
 #include "editor/session/session.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace fs = std::filesystem;
@@ -44,8 +45,8 @@ void Session::listUnsaved() {
   for (const fs::path& file : found.damaged) {
     const fs::path aside = putAside(file);
     messages_.add(MessageLevel::warning,
-                  "An autosave cannot be read" +
-                      (aside.empty() ? std::string(".") : ", and is kept as " + aside.string()));
+                  aside.empty() ? tr("An autosave cannot be read.")
+                                : trf("An autosave cannot be read, and is kept as {}", aside.string()));
   }
 }
 
@@ -61,7 +62,7 @@ void Session::answerLock(LockAnswer answer) {
   }
   if (answer == LockAnswer::copy)
     if (const Status saved = saveAs(freeCopyName(file_)); !saved)
-      messages_.addFailure("Making a copy", saved.error());
+      messages_.addFailure(tr("Making a copy"), saved.error());
 }
 
 void Session::lookAtLock() {
@@ -69,9 +70,9 @@ void Session::lookAtLock() {
   auto other = lock_->lostTo();
   if (!other) return;
   lock_.reset();
-  messages_.add(MessageLevel::warning, fmt::format("{} was taken over by {}. It is read-only here now; save "
-                                                   "it under another name to keep your changes.",
-                                                   file_.filename().string(), describe(*other)));
+  messages_.add(MessageLevel::warning, trf("{} was taken over by {}. It is read-only here now; save "
+                                           "it under another name to keep your changes.",
+                                           file_.filename().string(), describe(*other)));
   lockedBy_ = std::move(other);
 }
 
@@ -81,13 +82,15 @@ void Session::lookAround(double now) {
   lookAtLock();
   if (!untitled_ && !projectFileChanged_ && lookAt(file_).exists && differs(savedStamp_)) {
     projectFileChanged_ = true;
-    messages_.add(MessageLevel::warning, "Another program has changed " + file_.filename().string() +
-                                             " on disk; saving will ask what to do");
+    messages_.add(
+        MessageLevel::warning,
+        trf("Another program has changed {} on disk; saving will ask what to do", file_.filename().string()));
   }
   if (!sceneWatch_ || watching_.running() || rebuilding_.running() || !sceneWatch_->look()) return;
-  watching_.restart("Comparing the model's files", [this, watch = *sceneWatch_](const Job::Context& context) {
-    context.post([this, different = watch.different()] { sceneCompared(different); });
-  });
+  watching_.restart(tr("Comparing the model's files"),
+                    [this, watch = *sceneWatch_](const Job::Context& context) {
+                      context.post([this, different = watch.different()] { sceneCompared(different); });
+                    });
 }
 
 /// What the model was made of is read again in the background, to be compared with from now on.
@@ -105,7 +108,7 @@ void Session::watchScene(bool missing) {
     sceneWatch_.emplace(std::vector{FileStamp{model, {}, {}}});
     return;
   }
-  watching_.restart("Looking at the model's files",
+  watching_.restart(tr("Looking at the model's files"),
                     [this, model, import = built_->project.import,
                      host = options_.importHost](const Job::Context& context) {
                       std::vector<fs::path> files = importedFiles(model, import, host);
@@ -124,7 +127,7 @@ void Session::sceneCompared(const std::vector<fs::path>& different) {
   const fs::path model = sceneFileOf(file_, built_->project);
   const bool gone = !lookAt(model).exists;
   if (sceneFiles_.state == SceneFiles::State::missing && !gone && !different.empty()) {
-    messages_.add(MessageLevel::good, model.filename().string() + " is there again");
+    messages_.add(MessageLevel::good, trf("{} is there again", model.filename().string()));
     return reimport();
   }
   if (different == sceneFiles_.changed) return;
@@ -134,43 +137,45 @@ void Session::sceneCompared(const std::vector<fs::path>& different) {
                  different, gone};
   if (different.empty()) return;
   const std::string name = different.size() == 1 ? different.front().filename().string()
-                                                 : fmt::format("{} files of the model", different.size());
+                                                 : trf("{} files of the model", different.size());
   if (gone)
     return messages_.add(MessageLevel::warning,
-                         model.string() + " is gone; what was imported is still shown");
+                         trf("{} is gone; what was imported is still shown", model.string()));
   if (preferences_.reimportAutomatically) {
-    messages_.add(MessageLevel::info, name + " changed on disk: importing it again");
+    messages_.add(MessageLevel::info, trf("{} changed on disk: importing it again", name));
     return reimport();
   }
-  messages_.add(MessageLevel::warning, name + " changed on disk. File, Import again shows the new state.");
+  messages_.add(MessageLevel::warning,
+                trf("{} changed on disk. File, Import again shows the new state.", name));
 }
 
 void Session::reimport() {
-  if (!hasProject() || !built_ || walkRefuses("Importing the model again")) return;
-  rebuilding_.restart("Importing the model again", [this, file = file_, wanted = project(),
-                                                    host = options_.importHost](const Job::Context& context) {
-    auto result = openUnsaved(file, wanted, host, context.progress(), context.stop());
-    context.post([this, result = std::make_shared<Result<OpenProject>>(std::move(result))] {
-      if (!*result) return messages_.addFailure("Importing the model again", result->error());
-      const bool same = built_ && built_->scene->key == (*result)->scene->key;
-      watchedScene_.reset();  // also where nothing that can be seen has changed
-      rebuilt(std::move(**result), false);
-      messages_.add(MessageLevel::good,
-                    same ? "Imported the model again: nothing that shows has changed"
-                         : "Imported the model again; captures of what changed have to be baked anew");
-    });
-  });
+  if (!hasProject() || !built_ || walkRefuses(tr("Importing the model again"))) return;
+  rebuilding_.restart(
+      tr("Importing the model again"),
+      [this, file = file_, wanted = project(), host = options_.importHost](const Job::Context& context) {
+        auto result = openUnsaved(file, wanted, host, context.progress(), context.stop());
+        context.post([this, result = std::make_shared<Result<OpenProject>>(std::move(result))] {
+          if (!*result) return messages_.addFailure(tr("Importing the model again"), result->error());
+          const bool same = built_ && built_->scene->key == (*result)->scene->key;
+          watchedScene_.reset();  // also where nothing that can be seen has changed
+          rebuilt(std::move(**result), false);
+          messages_.add(MessageLevel::good,
+                        same
+                            ? tr("Imported the model again: nothing that shows has changed")
+                            : tr("Imported the model again; captures of what changed have to be baked anew"));
+        });
+      });
 }
 
 void Session::locateScene(const fs::path& model) {
-  if (!hasProject() || walkRefuses("Locating the model")) return;
+  if (!hasProject() || walkRefuses(tr("Locating the model"))) return;
   locateQuestion_ = false;
   const auto located = collectModel(model, file_, {}, Collect::link);
-  if (!located) return messages_.addFailure("Locating the model", located.error());
+  if (!located) return messages_.addFailure(tr("Locating the model"), located.error());
   if (!located->folder.empty())
-    messages_.add(MessageLevel::info,
-                  fmt::format("{} links to {}; `acentric collect` brings the files themselves",
-                              located->scene.string(), model.string()));
+    messages_.add(MessageLevel::info, trf("{} links to {}; `acentric collect` brings the files themselves",
+                                          located->scene.string(), model.string()));
   if (located->scene == project().scene) return reimport();
   apply(setScene(project(), located->scene));
 }
@@ -179,13 +184,13 @@ void Session::answerOutside(std::optional<Collect> how) {
   if (!outsideModel_) return;
   const fs::path file = std::exchange(outsideModel_, std::nullopt)->projectFile;
   if (!how) return;
-  opening_.restart("Bringing the model of " + file.filename().string(),
+  opening_.restart(trf("Bringing the model of {}", file.filename().string()),
                    [this, file, how = *how, host = options_.importHost](const Job::Context& context) {
                      auto collected = collectProject(file, how, host, context.progress(), context.stop());
                      context.post([this, file, collected = std::move(collected)] {
                        if (!collected)
-                         return messages_.addFailure("Bringing the model of " + file.filename().string(),
-                                                     collected.error());
+                         return messages_.addFailure(
+                             trf("Bringing the model of {}", file.filename().string()), collected.error());
                        open(file);
                      });
                    });
@@ -193,6 +198,7 @@ void Session::answerOutside(std::optional<Collect> how) {
 
 ProblemFacts Session::problemFacts() const {
   ProblemFacts facts;
+  facts.language = language();
   if (shipped_) return facts;  // of which nothing can be mended here
   facts.built = built_;
   if (!built_) return facts;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "editor/session/session.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -23,7 +24,7 @@ std::string Session::linkToWalk() const {
 }
 
 void Session::publish(const PublishPlace& place, bool allowMissing) {
-  if (!built_ || rebuilding_.running() || walkRefuses("Publishing")) return;
+  if (!built_ || rebuilding_.running() || walkRefuses(tr("Publishing"))) return;
   keepPublishPlace(place);
   publishing_.publish(built_, place, allowMissing, options_.importHost, bakeThreads());
 }

@@ -6,13 +6,14 @@
 #include "engine/inspect/fit.h"
 #include "engine/inspect/refine.h"
 #include "engine/pipeline/stair_storeys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
 void Session::findStoreys() {
-  if (!built_ || searching_.running() || walkRefuses("Looking for storeys")) return;
-  searching_.restart("Looking for storeys", [this, open = built_](const Job::Context& context) {
-    context.progress()({0, 0, "finding the storeys"});
+  if (!built_ || searching_.running() || walkRefuses(tr("Looking for storeys"))) return;
+  searching_.restart(tr("Looking for storeys"), [this, open = built_](const Job::Context& context) {
+    context.progress()({0, 0, trLater("finding the storeys")});
     Project project = open->project;
     Result<int> added = 0;
     StoreyOptions searching;
@@ -22,23 +23,23 @@ void Session::findStoreys() {
     else
       added = tl::unexpected(found.error());
     context.post([this, added, found = std::move(project.storeys)] {
-      if (!added) return messages_.addFailure("Looking for storeys", added.error());
+      if (!added) return messages_.addFailure(tr("Looking for storeys"), added.error());
       if (*added == 0)
-        return messages_.add(MessageLevel::info, "The scene has no storey that the project lacks");
+        return messages_.add(MessageLevel::info, tr("The scene has no storey that the project lacks"));
       // What was edited meanwhile stays.
-      Edit edit{this->project(), *added == 1 ? "Add a storey" : "Add " + std::to_string(*added) + " storeys"};
+      Edit edit{this->project(), trfMany("Add a storey", "Add {} storeys", std::uint64_t(*added), *added)};
       edit.project.storeys.insert(edit.project.storeys.end(), found.end() - *added, found.end());
       if (apply(std::move(edit)))
-        messages_.add(MessageLevel::good,
-                      "Found " + std::to_string(*added) + (*added == 1 ? " more storey" : " more storeys"));
+        messages_.add(MessageLevel::good, trfMany("Found {} more storey", "Found {} more storeys",
+                                                  std::uint64_t(*added), *added));
     });
   });
 }
 
 void Session::findStairs() {
-  if (!built_ || searching_.running() || walkRefuses("Looking for stairs")) return;
-  searching_.restart("Looking for stairs", [this, open = built_](const Job::Context& context) {
-    context.progress()({0, 0, "finding the stairs"});
+  if (!built_ || searching_.running() || walkRefuses(tr("Looking for stairs"))) return;
+  searching_.restart(tr("Looking for stairs"), [this, open = built_](const Job::Context& context) {
+    context.progress()({0, 0, trLater("finding the stairs")});
     Project project = open->project;
     const std::size_t storeys = project.storeys.size(), paths = project.paths.size();
     StoreyOptions searching;
@@ -50,17 +51,18 @@ void Session::findStairs() {
     else
       added = tl::unexpected(found.error());
     context.post([this, added, storeys, paths, found = std::move(project)] {
-      if (!added) return messages_.addFailure("Looking for stairs", added.error());
+      if (!added) return messages_.addFailure(tr("Looking for stairs"), added.error());
       for (const std::string& left : added->leftOut)
-        messages_.add(MessageLevel::info, "No cells on the stairs " + left);
+        messages_.add(MessageLevel::info, trf("No cells on the stairs {}", left));
       if (added->pieces == 0)
         return messages_.add(MessageLevel::info,
-                             "No stairs or ramps join storeys of the project that have no cells yet");
+                             tr("No stairs or ramps join storeys of the project that have no cells yet"));
       if (this->project().storeys.size() != storeys)
         return messages_.add(MessageLevel::warning,
-                             "Looking for stairs: the storeys were changed meanwhile; try again");
+                             tr("Looking for stairs: the storeys were changed meanwhile; try again"));
       // What was edited meanwhile stays.
-      Edit edit{this->project(), added->ways == 1 ? "Add stairs" : fmt::format("Add {} stairs", added->ways)};
+      Edit edit{this->project(),
+                trfMany("Add stairs", "Add {} stairs", std::uint64_t(added->ways), added->ways)};
       edit.project.storeys.insert(edit.project.storeys.end(), found.storeys.begin() + std::ptrdiff_t(storeys),
                                   found.storeys.end());
       if (edit.project.paths.size() == paths)
@@ -68,26 +70,25 @@ void Session::findStairs() {
                                   found.paths.end());
       if (apply(std::move(edit)))
         messages_.add(MessageLevel::good,
-                      fmt::format("Found {} stairs and ramps, in {} pieces", added->ways, added->pieces));
+                      trf("Found {} stairs and ramps, in {} pieces", added->ways, added->pieces));
     });
   });
 }
 
 void Session::outlineFromScene() {
-  if (!built_ || searching_.running() || walkRefuses("Finding the walkable area")) return;
-  searching_.restart("Finding the walkable area", [this, open = built_](const Job::Context& context) {
-    context.progress()({0, 0, "finding the walkable area"});
+  if (!built_ || searching_.running() || walkRefuses(tr("Finding the walkable area"))) return;
+  searching_.restart(tr("Finding the walkable area"), [this, open = built_](const Job::Context& context) {
+    context.progress()({0, 0, trLater("finding the walkable area")});
     const LayoutSpec& laid = open->project.layout();
     const auto outline = findOutlineAt(*open->rays, laid.floorHeight, laid.eyeHeight);
     context.post([this, open, outline] {
-      if (!outline) return messages_.addFailure("Finding the walkable area", outline.error());
+      if (!outline) return messages_.addFailure(tr("Finding the walkable area"), outline.error());
       if (*outline == open->project.layout().outline)
-        return messages_.add(MessageLevel::info, "The outline is the scene's walkable area already");
+        return messages_.add(MessageLevel::info, tr("The outline is the scene's walkable area already"));
       LayoutSpec spec = open->project.layout();
       spec.outline = *outline;
-      offerLayout(
-          *open, spec, "Outline from the scene",
-          fmt::format("The walkable area about {:.2f} m is {:.1f} m²", spec.floorHeight, outline->area()));
+      offerLayout(*open, spec, tr("Outline from the scene"),
+                  trf("The walkable area about {:.2f} m is {:.1f} m²", spec.floorHeight, outline->area()));
     });
   });
 }
@@ -95,7 +96,8 @@ void Session::outlineFromScene() {
 void Session::offerLayout(const OpenProject& from, const LayoutSpec& spec, const std::string& label,
                           const std::string& found) {
   if (!hasProject() || project().layout() != from.project.layout())
-    return messages_.add(MessageLevel::warning, label + ": the layout was changed meanwhile; try again");
+    return messages_.add(MessageLevel::warning,
+                         trf("{}: the layout was changed meanwhile; try again", label));
   Edit edit{project(), label};
   edit.project.layout() = spec;
   Outline& walkable = edit.project.current().walkable;
@@ -104,47 +106,47 @@ void Session::offerLayout(const OpenProject& from, const LayoutSpec& spec, const
 }
 
 void Session::fitCells() {
-  if (!built_ || searching_.running() || walkRefuses("Fitting the cells")) return;
-  searching_.restart("Fitting the cells", [this, open = built_,
-                                           threads = bakeThreads()](const Job::Context& context) {
+  if (!built_ || searching_.running() || walkRefuses(tr("Fitting the cells"))) return;
+  searching_.restart(tr("Fitting the cells"), [this, open = built_,
+                                               threads = bakeThreads()](const Job::Context& context) {
     FitOptions options;
     options.mostTriangles = std::size_t(open->project.budget.trianglesPerRegion);
     TaskRunner runner(threads - 1);
     const auto fitted = fitToBudget(open->project.layout(), TriangleTree(open->scene), options, runner,
                                     context.progress(), context.stop());
     context.post([this, open, fitted, most = options.mostTriangles] {
-      if (!fitted) return messages_.addFailure("Fitting the cells", fitted.error());
+      if (!fitted) return messages_.addFailure(tr("Fitting the cells"), fitted.error());
       if (!fitted->satisfied)
         return messages_.add(
             MessageLevel::warning,
-            fmt::format(
-                "No cells down to {:g} m keep every region to {} triangles; the best, of {:g} m, reach {}",
+            trf("No cells down to {:g} m keep every region to {} triangles; the best, of {:g} m, reach {}",
                 fitted->leastTried, most, fitted->spec.cellSize, fitted->budgets.worst()));
-      offerLayout(*open, fitted->spec, "Fit cells to the budget",
-                  fmt::format("Cells of {:g} m keep every region to {} triangles (most: {})",
-                              fitted->spec.cellSize, most, fitted->budgets.worst()));
+      offerLayout(*open, fitted->spec, tr("Fit cells to the budget"),
+                  trf("Cells of {:g} m keep every region to {} triangles (most: {})", fitted->spec.cellSize,
+                      most, fitted->budgets.worst()));
     });
   });
 }
 
 void Session::splitOverBudget() {
-  if (!built_ || searching_.running() || walkRefuses("Splitting cells")) return;
+  if (!built_ || searching_.running() || walkRefuses(tr("Splitting cells"))) return;
   searching_.restart(
-      "Splitting cells", [this, open = built_, threads = bakeThreads()](const Job::Context& context) {
+      tr("Splitting cells"), [this, open = built_, threads = bakeThreads()](const Job::Context& context) {
         RefineOptions options;
         options.mostTriangles = std::size_t(open->project.budget.trianglesPerRegion);
         TaskRunner runner(threads - 1);
         const auto refined = refineToBudget(open->project.layout(), TriangleTree(open->scene), options,
                                             runner, context.progress(), context.stop());
         context.post([this, open, refined] {
-          if (!refined) return messages_.addFailure("Splitting cells", refined.error());
+          if (!refined) return messages_.addFailure(tr("Splitting cells"), refined.error());
           const std::string left = refined->over.empty()
-                                       ? "none exceeds the budget now"
-                                       : fmt::format("{} still exceed the budget: {}", refined->over.size(),
-                                                     describe(refined->over.front().why));
-          if (refined->split == 0) return messages_.add(MessageLevel::info, "No cell was split: " + left);
-          offerLayout(*open, refined->spec, "Split what exceeds the budget",
-                      fmt::format("{} cells were split: {}", refined->split, left));
+                                       ? tr("none exceeds the budget now")
+                                       : trf("{} still exceed the budget: {}", refined->over.size(),
+                                             describe(refined->over.front().why));
+          if (refined->split == 0)
+            return messages_.add(MessageLevel::info, trf("No cell was split: {}", left));
+          offerLayout(*open, refined->spec, tr("Split what exceeds the budget"),
+                      trf("{} cells were split: {}", refined->split, left));
         });
       });
 }

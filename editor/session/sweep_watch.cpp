@@ -14,6 +14,7 @@
 #include "engine/base/file.h"
 #include "engine/base/spawn.h"
 #include "engine/pipeline/knobs.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace fs = std::filesystem;
@@ -75,7 +76,7 @@ Status SweepWatch::start(const SweepRequest& request) {
   require(!project_.empty() && !running(), "a sweep is of a project's file, one at a time");
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) return fail(ErrorKind::unreadable, "cannot be made: " + error.message(), folder_.string());
+  if (error) return fail(ErrorKind::unreadable, trf("cannot be made: {}", error.message()), folder_.string());
   std::vector<std::string> words{program_.string(),
                                  kind_ == Kind::sweep ? "sweep" : "propose",
                                  project_.string(),
@@ -118,7 +119,7 @@ bool SweepWatch::lookAtProcess() {
   process_ = 0;
   if (got > 0 && !stopping_ && !(WIFEXITED(status) && WEXITSTATUS(status) == 0)) {
     const std::string said = lastLineOf(folder_ / kLogFile);
-    runTrouble_ = said.empty() ? "The measuring ended without a word" : said;
+    runTrouble_ = said.empty() ? tr("The measuring ended without a word") : said;
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -49,19 +50,20 @@ bool sameSize(const PerspectiveView& a, const PerspectiveView& b) {
 }
 
 std::string figuresText(const Compared& compared) {
-  return fmt::format("PSNR {:.1f} dB   SSIM {:.3f}   holes {} of pixels", compared.figures.psnr,
-                     compared.figures.ssim, ui::formatPercent(compared.figures.holeShare));
+  return trf("PSNR {:.1f} dB   SSIM {:.3f}   holes {} of pixels", compared.figures.psnr,
+             compared.figures.ssim, ui::formatPercent(compared.figures.holeShare));
 }
 
 std::string againstText(const Compared& compared) {
-  return fmt::format("against {} ray{} per pixel, {}×{} pixels", compared.raysPerPixel,
-                     compared.raysPerPixel == 1 ? "" : "s", compared.width, compared.height);
+  return trfMany("against {} ray per pixel, {}×{} pixels", "against {} rays per pixel, {}×{} pixels",
+                 std::uint64_t(compared.raysPerPixel), compared.raysPerPixel, compared.width,
+                 compared.height);
 }
 
 std::string describe(const Truth& truth) {
-  if (truth.raysPerPixel == 0)
-    return fmt::format("truth, coarse: 1 ray for {0}×{0} pixels", kCoarseTruthPixels);
-  return fmt::format("truth, {} ray{} per pixel", truth.raysPerPixel, truth.raysPerPixel == 1 ? "" : "s");
+  if (truth.raysPerPixel == 0) return trf("truth, coarse: 1 ray for {0}×{0} pixels", kCoarseTruthPixels);
+  return trfMany("truth, {} ray per pixel", "truth, {} rays per pixel", std::uint64_t(truth.raysPerPixel),
+                 truth.raysPerPixel);
 }
 
 bool TruthCompare::Key::operator==(const Key& other) const {
@@ -100,7 +102,7 @@ void TruthCompare::follow(const std::optional<CompareRequest>& wanted) {
 void TruthCompare::trace(const Key& key, int from, int to) {
   if (from == to) return tracing_.abandon();
   tracing_.restart(
-      "Tracing the truth", [this, key, from, to, threads = threads_](const Job::Context& context) {
+      tr("Tracing the truth"), [this, key, from, to, threads = threads_](const Job::Context& context) {
         TaskRunner runner(threads - 1);
         for (const int rays : {0, 1, 4, 9, 16}) {
           if (rays <= from || rays > to) continue;
@@ -117,13 +119,14 @@ void TruthCompare::compareNewest(const std::shared_ptr<const Frame>& frame) {
     return;
   askedFrame_ = frame;
   askedTruth_ = truth_;
-  comparing_.restart("Comparing with the truth", [this, frame, truth = truth_](const Job::Context& context) {
-    const auto figures = compare(*frame, truth->frame.colour, truth->frame.rayDistance);
-    if (!figures) return;  // of another size: the next frame is not
-    auto compared = std::make_shared<const Compared>(
-        Compared{*figures, truth->raysPerPixel, truth->view.width, truth->view.height, frame, truth});
-    context.post([this, compared] { compared_ = compared; });
-  });
+  comparing_.restart(
+      tr("Comparing with the truth"), [this, frame, truth = truth_](const Job::Context& context) {
+        const auto figures = compare(*frame, truth->frame.colour, truth->frame.rayDistance);
+        if (!figures) return;  // of another size: the next frame is not
+        auto compared = std::make_shared<const Compared>(
+            Compared{*figures, truth->raysPerPixel, truth->view.width, truth->view.height, frame, truth});
+        context.post([this, compared] { compared_ = compared; });
+      });
 }
 
 }  // namespace acentric::editor

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editor/session/engine_texts.h"
 #include "engine/geometry/conventions.h"
 #include "engine/view/view_cameras.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
@@ -40,10 +42,10 @@ std::vector<UsedImage> usedImages(const LoadedWalk& loaded, const PerspectiveVie
 }
 
 std::string describe(const UsedImage& image) {
-  std::string text = fmt::format("camera {}   {:.0f}–{:.0f}°   {}", image.camera, image.lowDegrees,
-                                 image.lowDegrees + image.widthDegrees, nameOf(image.role));
-  if (image.state == ImageState::missing) return text + "   not there";
-  if (image.state == ImageState::coarse) text += ", coarse";
+  std::string text = trf("camera {}   {:.0f}–{:.0f}°   {}", image.camera, image.lowDegrees,
+                         image.lowDegrees + image.widthDegrees, engineText(nameOf(image.role)));
+  if (image.state == ImageState::missing) return trf("{}   not there", text);
+  if (image.state == ImageState::coarse) text += tr(", coarse");
   return image.share ? text + fmt::format("   {:.1f} %", 100 * *image.share) : text;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/pipeline/bake_plan.h"
 #include "engine/view/view_cameras.h"
 #include "ui/text_format.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -27,29 +28,29 @@ Result<Frame> frameOf(const OpenProject& open, WalkStream& stream, const Perspec
   ViewSettings settings = open.project.view;
   settings.renderer = withoutOpenGl(settings.renderer);
   const ViewCameras needed = camerasOf(*open.layout, view, settings);
-  if (needed.region < 0) return fail(ErrorKind::notFound, "the kept variant has no cell where the eye is");
+  if (needed.region < 0)
+    return fail(ErrorKind::notFound, tr("the kept variant has no cell where the eye is"));
   if (Status there = stream.complete(needed.cameras, std::span(&needed.region, 1), runner, {}, stop); !there)
     return tl::unexpected(there.error());
   auto frame = renderFrame(stream.walk()->walk, view, settings, runner);
   if (frame && frame->stats.missingImages > 0)
-    return fail(ErrorKind::notFound, "captures of the kept variant that are seen here are not on disk");
+    return fail(ErrorKind::notFound, tr("captures of the kept variant that are seen here are not on disk"));
   return frame;
 }
 
 std::string figuresText(const char* name, const Comparison& figures, std::span<const std::uint64_t> bytes) {
-  return fmt::format("{} {:.1f} dB   {}   {} cameras", name, figures.psnr,
-                     ui::formatBytes(std::accumulate(bytes.begin(), bytes.end(), std::uint64_t(0))),
-                     bytes.size());
+  return trf("{} {:.1f} dB   {}   {} cameras", name, figures.psnr,
+             ui::formatBytes(std::accumulate(bytes.begin(), bytes.end(), std::uint64_t(0))), bytes.size());
 }
 
 }  // namespace
 
 std::string keptText(const VariantFigures& figures) {
-  return figuresText("kept", figures.kept, figures.keptBytes);
+  return figuresText(tr("kept"), figures.kept, figures.keptBytes);
 }
 
 std::string nowText(const VariantFigures& figures, std::span<const std::uint64_t> bytes) {
-  return figuresText("now", figures.now, bytes);
+  return figuresText(tr("now"), figures.now, bytes);
 }
 
 bool VariantCompare::Key::operator==(const Key& other) const {
@@ -89,8 +90,8 @@ void VariantCompare::follow(const std::optional<VariantRequest>& wanted) {
 }
 
 void VariantCompare::draw(const Key& key, std::size_t memoryBytes) {
-  drawing_.restart("Drawing the kept variant", [this, key, memoryBytes, stream = stream_,
-                                                threads = threads_](const Job::Context& context) {
+  drawing_.restart(tr("Drawing the kept variant"), [this, key, memoryBytes, stream = stream_,
+                                                    threads = threads_](const Job::Context& context) {
     TaskRunner runner(threads - 1);
     const auto fail = [&](const Error& error) {
       if (error.kind != ErrorKind::cancelled)
@@ -114,8 +115,8 @@ void VariantCompare::compare(const VariantRequest& wanted) {
   if (!frame_ || !wanted.frame || wanted.frame == askedFrame_) return;
   askedFrame_ = wanted.frame;
   figures_.reset();
-  comparing_.restart("Comparing variants", [this, wanted, kept = kept_, frame = frame_,
-                                            threads = threads_](const Job::Context& context) {
+  comparing_.restart(tr("Comparing variants"), [this, wanted, kept = kept_, frame = frame_,
+                                                threads = threads_](const Job::Context& context) {
     TaskRunner runner(threads - 1);
     const Project& project = wanted.now->project;
     const TruthFrame truth = renderTruth(*wanted.now->rays, wanted.view, project.bake, project.exposure,

@@ -8,6 +8,7 @@
 
 #include "engine/geometry/conventions.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -139,14 +140,14 @@ std::string LatticeTool::text() const {
 std::string LatticeTool::labelOf(const LatticeIntent& intent) {
   switch (intent.grip) {
     case LatticeGrip::turn:
-      return fmt::format("Lattice rotation {:.1f}°", degrees(intent.place.rotationRadians));
+      return trf("Lattice rotation {:.1f}°", degrees(intent.place.rotationRadians));
     case LatticeGrip::size:
-      return fmt::format("Cell size {:.4g} m", intent.place.cellSize);
+      return trf("Cell size {:.4g} m", intent.place.cellSize);
     case LatticeGrip::origin:
     case LatticeGrip::none:
       break;
   }
-  return fmt::format("Lattice origin {:.2f}, {:.2f} m", intent.place.origin.x, intent.place.origin.y);
+  return trf("Lattice origin {:.2f}, {:.2f} m", intent.place.origin.x, intent.place.origin.y);
 }
 
 }  // namespace acentric::editor

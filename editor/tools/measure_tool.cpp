@@ -7,6 +7,7 @@
 
 #include "engine/geometry/conventions.h"
 #include "ui/keys.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -45,8 +46,8 @@ std::string describe(const MeasureTool::Ruler& ruler) {
   const glm::dvec2 way = ruler.to - ruler.from;
   // No minus before a zero.
   const auto plain = [](double value) { return std::abs(value) < 0.0005 ? 0.0 : value; };
-  return fmt::format("{:.3f} m at {:.1f}°\nx {:.3f} m, y {:.3f} m", glm::length(way),
-                     plain(degrees(std::atan2(way.y, way.x))), plain(way.x), plain(way.y));
+  return trf("{:.3f} m at {:.1f}°\nx {:.3f} m, y {:.3f} m", glm::length(way),
+             plain(degrees(std::atan2(way.y, way.x))), plain(way.x), plain(way.y));
 }
 
 }  // namespace acentric::editor

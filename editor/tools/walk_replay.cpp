@@ -7,11 +7,12 @@
 #include <utility>
 
 #include "engine/measure/statistics.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 
 std::string describe(const ReplayReport& report) {
-  return fmt::format(
+  return trf(
       "{} frames in {:.1f} s, {} of them took longer than 33 ms; {:.1f} ms a frame (median), {:.1f} ms (99th "
       "percentile)",
       report.frames, report.seconds, report.late, 1e3 * report.median, 1e3 * report.p99);

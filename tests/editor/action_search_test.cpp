@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "editor/actions/action_table.h"
+#include "ui/translate.h"
 
 namespace acentric::editor {
 namespace {
@@ -84,6 +85,25 @@ TEST(ActionSearch, FindsEveryActionOfTheTableByItsLabelAndItsKey) {
   EXPECT_EQ(searchActions(table, "undo", {}).front()->id, "edit.undo");
   EXPECT_EQ(searchActions(table, "pref", {}).front()->id, "file.preferences");
   EXPECT_EQ(searchActions(table, "cfit", {}), searchActions(table, "CFIT", {}));
+}
+
+TEST(ActionSearch, FindsByTheNameThatIsShownAndByTheEnglishOne) {
+  const std::vector<Action> table = makeActionTable();
+  ASSERT_TRUE(setLanguage("de", ACENTRIC_CATALOGUES).has_value());
+  const auto first = [&](const char* query) {
+    const auto found = searchActions(table, query, {});
+    return found.empty() ? std::string() : found.front()->id;
+  };
+  EXPECT_EQ(first("rückgängig"), "edit.undo");
+  EXPECT_EQ(first("Undo"), "edit.undo");
+  EXPECT_EQ(first("über acentric"), "help.about") << "a small letter for Ü";
+  EXPECT_EQ(first("strg+s"), "file.save");
+  EXPECT_FALSE(searchKeys(table, "mausrad").empty());
+  EXPECT_EQ(searchKeys(table, "wheel").front().keys, "Mausrad");
+  ASSERT_TRUE(setLanguage("ja", ACENTRIC_CATALOGUES).has_value());
+  EXPECT_EQ(first("元に戻す"), "edit.undo");
+  EXPECT_EQ(first("undo"), "edit.undo");
+  ASSERT_TRUE(setLanguage("en").has_value());
 }
 
 TEST(ActionSearch, RunsEveryActionOfAMenuByItsLabelAndEnter) {

@@ -147,6 +147,7 @@ class PreferencesTest : public testing::Test {
 TEST_F(PreferencesTest, KeepEverythingThatTheDialogShows) {
   Preferences p;
   p.theme = Theme::light;
+  p.language = "de";
   p.scalePercent = 150;
   p.autosaveSeconds = 45;
   p.lookSensitivity = 1.75;
@@ -156,6 +157,7 @@ TEST_F(PreferencesTest, KeepEverythingThatTheDialogShows) {
   ASSERT_TRUE(savePreferences(p, file_));
   const Preferences read = loadPreferences(file_);
   EXPECT_EQ(read.theme, Theme::light);
+  EXPECT_EQ(read.language, "de");
   EXPECT_EQ(read.scalePercent, 150);
   EXPECT_EQ(read.autosaveSeconds, 45);
   EXPECT_EQ(read.lookSensitivity, 1.75);
@@ -167,8 +169,9 @@ TEST_F(PreferencesTest, KeepEverythingThatTheDialogShows) {
 TEST_F(PreferencesTest, WrongKindsAreLeftAndNumbersPutIntoRange) {
   const Preferences fresh;
   const Preferences wrong = after(
-      R"({"theme":"pink","scalePercent":"big","startUp":7,"invertLook":1,"guideSeen":"x","autosaveSeconds":null})");
+      R"({"theme":"pink","language":"xx","scalePercent":"big","startUp":7,"invertLook":1,"guideSeen":"x","autosaveSeconds":null})");
   EXPECT_EQ(wrong.theme, fresh.theme);
+  EXPECT_EQ(wrong.language, "") << "as the system says";
   EXPECT_EQ(wrong.scalePercent, fresh.scalePercent);
   EXPECT_EQ(wrong.startUp, fresh.startUp);
   EXPECT_EQ(wrong.invertLook, fresh.invertLook);

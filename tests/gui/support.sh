@@ -1,6 +1,10 @@
 # Functions for tests that drive the editor: a virtual display, waiting on its log, and input by widget names.
 # Sourced. The caller sets EDITOR, WORK (an empty folder) and calls start_display and start_editor.
 
+# The editor speaks English, whatever the caller does.
+unset LANGUAGE LC_MESSAGES LANG
+export LC_ALL=C.UTF-8
+
 fail() {
   echo "FAILED: $*" >&2
   [ -n "${DISPLAY:-}" ] && import -window root "$WORK/failure.png" 2>/dev/null

@@ -43,6 +43,7 @@ const std::vector<Home>& homes() {
       {"spdlog", {"spdlog/"}, {"engine/base/"}},
       {"valijson", {"valijson/"}, {"engine/pipeline/"}},
       {"CLI11", {"CLI/"}, {"engine/cli/", "editor/main.cpp"}},
+      {"Boost.Locale", {"boost/locale"}, {"ui/"}},
       {"GLFW", {"GLFW/"}, {"ui/"}},
       {"ImGui", {"imgui", "backends/imgui"}, {"ui/", "editor/panels/", "editor/overlays/", "editor/app"}},
       {"OpenGL", {"epoxy/", "GL/", "GLES"}, {"engine/view_gl/", "ui/"}},
