@@ -170,7 +170,7 @@ void PlanLayers::drawDensities(ImDrawList& list, const ui::CanvasView& view, ImF
   for (std::size_t r = 0; r < middles_.size(); ++r) {
     const glm::dvec2 at = view.screenFromWorld(middles_[r]);
     if (densities_[r] != 1 && view.contains(at))
-      ui::drawLabel(list, font, ui::imVec(at + glm::dvec2(6, 4)), palette::text,
+      ui::drawLabel(list, font, ui::imVec(at + glm::dvec2(8, 9)), palette::text,
                     ("× " + densityText(densities_[r])).c_str());
   }
 }

@@ -149,8 +149,7 @@ void PlanPanel::drawContents(PanelContext& context, ImDrawList& list) {
   const bool tried = state.trial || state.planTool.latticeTool().dragging();
   if (state.showCameras && !covered && !tried) layers_.drawCameras(list, view_);
   if (state.overlay == PlanOverlay::bake && !tried) layers_.drawSigns(list, view_);
-  if (state.overlay == PlanOverlay::density && !tried)
-    layers_.drawDensities(list, view_, context.window.fonts().small);
+  if (!covered && !tried) layers_.drawDensities(list, view_, context.window.fonts().small);
   drawStart(list, view_, session.project().spawn().position, session.project().spawn().yawRadians);
   if (state.showPaths) drawWalks(context, list);
   const WalkPose& pose = state.walker.pose();

@@ -323,8 +323,8 @@ class Session {
   void dropStream();
   void drawBackdropIfStale();
   void inspectIfStale();
-  /// What the last estimate says of a bake that begins now; nothing where it is of something else.
-  std::optional<BakeForecast> forecastOfEstimate() const;
+  /// What the last estimate, or else the costs of settings, say of all that there is to bake.
+  std::optional<BakeForecast> knownForecast() const;
   void bakeEnded(const Result<ProjectBakeReport>& report);
   Result<ProjectBakeReport> bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
                                         const std::optional<BakeForecast>& known, std::size_t memoryBytes,

@@ -46,7 +46,7 @@ std::vector<QueuedCamera> queueOf(const StoreysToBake& plan) {
   return queue;
 }
 
-/// `known`: an estimate of the first storey; it does where that is all there is to bake.
+/// `known`: what was predicted before; it does where that is what there is to bake.
 Result<BakeForecast> predict(const StoreysToBake& plan, const std::optional<BakeForecast>& known,
                              std::size_t memoryBytes, TaskRunner& runner, const Job::Context& context) {
   std::vector<BakeShare> shares;
@@ -56,8 +56,9 @@ Result<BakeForecast> predict(const StoreysToBake& plan, const std::optional<Bake
     request.coarseFirst = true;
     shares.push_back(missingOf(plan.storeys[s], request));
   }
-  if (known && shares.size() == 1 && known->cameras == int(shares[0].cameras.size()) &&
-      known->lights == int(shares[0].light) && known->memoryBytes == memoryBytes)
+  int cameras = 0, lights = 0;
+  for (const BakeShare& share : shares) cameras += int(share.cameras.size()), lights += int(share.light);
+  if (known && known->cameras == cameras && known->lights == lights && known->memoryBytes == memoryBytes)
     return *known;
   BakeForecastOptions options;
   options.memoryBytes = memoryBytes;
@@ -94,8 +95,8 @@ void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
   neededBytes_.reset();
   bakeGate_.open();
   baking_.restart(
-      tr("Baking"), [this, open = built_, from, takeOver, known = forecastOfEstimate(),
-                     threads = bakeThreads(), memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
+      tr("Baking"), [this, open = built_, from, takeOver, known = knownForecast(), threads = bakeThreads(),
+                     memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
                      host = options_.importHost](const Job::Context& context) {
         lowerThreadPriority();  // the window comes first
         TaskRunner runner(threads - 1, &bakeGate_);
@@ -243,9 +244,13 @@ const BakeEstimate* Session::estimate() const {
   return current ? &estimate_->figures : nullptr;
 }
 
-std::optional<BakeForecast> Session::forecastOfEstimate() const {
+std::optional<BakeForecast> Session::knownForecast() const {
   const BakeEstimate* figures = estimate();
-  if (figures == nullptr) return std::nullopt;
+  if (figures == nullptr) {
+    const BakeCost* cost = bakeCosts_.of(project().bake);
+    const bool same = cost != nullptr && cost->forecast.threads == bakeThreads();
+    return same ? std::optional(cost->forecast) : std::nullopt;
+  }
   BakeForecast forecast;
   forecast.cameras = figures->cameras;
   forecast.lights = figures->lightSamples.value > 0 ? 1 : 0;
