@@ -21,6 +21,7 @@
 #include "engine/view/render.h"
 #include "tests/pipeline/small_project.h"
 #include "tests/store/temporary_folder.h"
+#include "tests/support/process.h"
 
 namespace acentric {
 namespace {
@@ -47,9 +48,16 @@ class ExportGltf : public FolderTest {
     open_ = test::openWith(builder.rays(), project, folder_ / "room.acentric.json");
     open_.project.exposure = 0.4F;
   }
+  /// Once for all tests: each gets a copy of the captures.
   void bake() {
-    TaskRunner runner(1);
-    EXPECT_TRUE(bakeProject(open_, {}, runner));
+    static const test::TemporaryFolder kept("baked-for-gltf");
+    const std::filesystem::path baked = kept.path() / "captures", own = captureFolderFor(open_.file);
+    const bool first = !std::filesystem::exists(baked);
+    if (first) {
+      TaskRunner runner(1);
+      ASSERT_TRUE(bakeProject(open_, {}, runner));
+    }
+    std::filesystem::copy(first ? own : baked, first ? baked : own, std::filesystem::copy_options::recursive);
   }
   Result<ExportGltfReport> write(const ExportGltfOptions& options = {}) {
     TaskRunner runner(1);
