@@ -331,7 +331,9 @@ TEST(OldProjectFiles, OfVersion1MeanWhatTheyMeant) {
   const auto project = loadProject(oldProject("everything.acentric.json"));
   ASSERT_TRUE(project) << project.error().describe() << "\ntoday it would be\n"
                        << formatProject(everythingSet());
-  EXPECT_EQ(*project, everythingSet());
+  Project expected = everythingSet();
+  for (Storey& storey : expected.storeys) storey.layout.density.clear();  // came later
+  EXPECT_EQ(*project, expected);
 }
 
 TEST(ProjectFile, NeverSavesWhatItWouldNotLoad) {
