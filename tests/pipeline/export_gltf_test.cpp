@@ -21,7 +21,6 @@
 #include "engine/view/render.h"
 #include "tests/pipeline/small_project.h"
 #include "tests/store/temporary_folder.h"
-#include "tests/support/process.h"
 
 namespace acentric {
 namespace {
@@ -48,10 +47,13 @@ class ExportGltf : public FolderTest {
     open_ = test::openWith(builder.rays(), project, folder_ / "room.acentric.json");
     open_.project.exposure = 0.4F;
   }
+  static std::filesystem::path bakedFolder() {
+    return std::filesystem::temp_directory_path() / ("acentric-baked-for-gltf-" + std::to_string(::getpid()));
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(bakedFolder()); }
   /// Once for all tests: each gets a copy of the captures.
   void bake() {
-    static const test::TemporaryFolder kept("baked-for-gltf");
-    const std::filesystem::path baked = kept.path() / "captures", own = captureFolderFor(open_.file);
+    const std::filesystem::path own = captureFolderFor(open_.file), baked = bakedFolder();
     const bool first = !std::filesystem::exists(baked);
     if (first) {
       TaskRunner runner(1);
