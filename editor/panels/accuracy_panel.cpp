@@ -28,9 +28,14 @@ std::string labelOf(const MeasureInfo& info) {
   return info.unit[0] == '\0' ? tr(info.label) : fmt::format("{}, {}", tr(info.label), info.unit);
 }
 
+/// Four figures are enough of a large one.
+std::string numberOf(const MeasureInfo& info, double value) {
+  const double shown = value * info.shown;
+  return fmt::format("{:.{}f}", shown, shown >= 100 ? std::max(0, info.digits - 1) : info.digits);
+}
+
 std::string textOf(const MeasureInfo& info, double value) {
-  return fmt::format("{:.{}f}{}{}", value * info.shown, info.digits, info.unit[0] == '\0' ? "" : " ",
-                     info.unit);
+  return fmt::format("{}{}{}", numberOf(info, value), info.unit[0] == '\0' ? "" : " ", info.unit);
 }
 
 void chooseMeasure(PanelContext& context, const char* id, bool error, Measure& chosen) {
@@ -223,18 +228,25 @@ std::string goalsText(const Goals& goals) {
   return text;
 }
 
-/// What keeps the goals best, and whether it does.
-void drawProposal(PanelContext& context, const Sweep& sweep) {
+std::string figuresText(const SweepPoint& point) {
+  const auto text = [&](Measure measure) { return textOf(infoOf(measure), point[measure].median); };
+  return fmt::format("{}, {}, {}", text(Measure::bytes), text(Measure::frameMs), text(Measure::psnr));
+}
+
+/// What keeps the goals best, and whether it does. Left of `right`, screen pixels.
+void drawProposal(PanelContext& context, const Sweep& sweep, float right) {
   if (!sweep.goals) return;
   const SweepPoint* best = proposalOf(sweep, *sweep.goals);
   if (best == nullptr) return;
   const bool kept = missOf(*sweep.goals, figuresOf(*best)) <= 0;
   actionButton(context, "goals.take", kept ? ButtonLook::primary : ButtonLook::plain, {}, tr("Take"));
   ImGui::SameLine(0, ui::scaled(6));
-  const std::string goals = goalsText(*sweep.goals), setting = textOf(best->setting);
-  const std::string text = kept ? trf("{} is kept by: {}", goals, setting)
-                                : trf("{} is kept by nothing yet; nearest: {}", goals, setting);
-  ui::wrappedText(kept ? palette::good : palette::warning, text);
+  const std::string figures = figuresText(*best);
+  const std::string text = kept ? trf("Kept: {}", figures) : trf("Not kept yet; nearest: {}", figures);
+  ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {right, ImGui::GetCursorScreenPos().y + 100}, true);
+  ImGui::TextColored((kept ? palette::good : palette::warning).vec(), "%s", text.c_str());
+  ImGui::PopClipRect();
+  ui::tooltip(goalsText(*sweep.goals) + "\n" + textOf(best->setting));
 }
 
 PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
@@ -339,9 +351,8 @@ void AccuracyPanel::drawPoint(PanelContext& context, const Sweep& sweep, const S
     if (value.count == 0) continue;
     std::string text = textOf(info, value.median);
     if (value.max > value.min && !info.error)
-      text += trf("  ({:.{}f} to {:.{}f})", value.min * info.shown, info.digits, value.max * info.shown,
-                  info.digits);
-    if (info.measure == Measure::bakeSeconds && point.bakeEstimated) text += tr("  foretold");
+      text += trf("  ({} to {})", numberOf(info, value.min), numberOf(info, value.max));
+    if (info.measure == Measure::bakeSeconds && point.bakeEstimated) text += tr("  predicted");
     ui::keyValue(tr(info.label), text, 100);
     const Spread& before = base[info.measure];
     if (info.error)
@@ -366,6 +377,10 @@ void AccuracyPanel::draw(PanelContext& context) {
   const bool open = ImGui::BeginChild("##accuracy", {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   ImGui::PopStyleVar();
   if (open) {
+    if (sweep && sweep->goals && goalsOf_ != watch.folder()) {  // of an earlier search
+      goalsOf_ = watch.folder();
+      context.state().accuracy.goalsRequest.goals = *sweep->goals;
+    }
     drawToolbar(context);
     drawState(watch);
     const SweepPoint* shown = sweep ? sweep->find(shown_) : nullptr;
@@ -379,7 +394,7 @@ void AccuracyPanel::draw(PanelContext& context) {
       ImGui::SetCursorScreenPos({at.x, at.y + room.y - foot + ImGui::GetStyle().ItemSpacing.y});
       ImGui::AlignTextToFramePadding();
       if (context.state().accuracy.goals)
-        drawProposal(context, *sweep);
+        drawProposal(context, *sweep, at.x + room.x - card - ui::scaled(8));
       else
         drawPresets(context);
       ImGui::SetCursorScreenPos({at.x + room.x - card, at.y});

@@ -19,6 +19,7 @@ class AccuracyPanel {
   SweepSetting shown_;  ///< under the pointer, else selected
   ui::Texture picture_;
   std::filesystem::path pictureFile_;
+  std::filesystem::path goalsOf_;  ///< the folder of the search whose goals are those of the toolbar
   std::shared_ptr<const Sweep> pictureOf_;
 };
 

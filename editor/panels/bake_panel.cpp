@@ -53,7 +53,7 @@ void drawPace(PanelContext& context) {
     pace += trf("{}about {} left", pace.empty() ? "" : ", ", ui::formatDuration(*left));
   ui::keyValue(tr("Pace"), pace.empty() ? tr("not known yet") : pace, kValueX);
   ui::tooltip(tr(
-      "Measured over the last half minute; time left is as foretold while the first cameras are baked, and "
+      "Measured over the last half minute; time left is as predicted while the first cameras are baked, and "
       "then "
       "without light on local geometry."));
 }

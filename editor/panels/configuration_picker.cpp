@@ -151,7 +151,7 @@ void ConfigurationPicker::draw(PanelContext& context, float labelWidth) {
     for (int c = 0; c < kConfigurations; ++c)
       if (drawChoice(context, Configuration(c))) chosen = Configuration(c);
     ui::mutedText(cost_.bytes ? tr("Bytes by what is baked or was estimated so far")
-                              : tr("Bytes are foretold after a first bake or an estimate"));
+                              : tr("Bytes are predicted after a first bake or an estimate"));
     if (chosen) {
       context.state().trial.reset();
       session.apply(setConfiguration(session.project(), *chosen));

@@ -352,12 +352,12 @@ Result<Report> correlation(const CoverageOptions& options, const Common& common)
   };
   report.text =
       fmt::format(
-          "{} frames of {}x{} from {} eyes, renderer {}: holes measured, mean {:.4f} %; foretold as\n", n,
+          "{} frames of {}x{} from {} eyes, renderer {}: holes measured, mean {:.4f} %; predicted as\n", n,
           walk->size.width, walk->size.height, result->eyes, options.renderer, 100 * measured / n) +
       line("missed", missed, result->missed) + line("open", open, result->open) +
       fmt::format(
           "  (missed: the surface seen is in no capture; open: nor is anything behind it)\n"
-          "{} pixels are holes, {} were foretold as open, {} both\n",
+          "{} pixels are holes, {} were predicted as open, {} both\n",
           holes, predicted, both);
   if (!options.csv.empty())
     if (Status written = writeTextAtomically(options.csv, csv); !written)

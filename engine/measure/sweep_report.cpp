@@ -218,7 +218,7 @@ class ReportWriter {
     if (s.count > 1)
       cell +=
           fmt::format("<small>{}&hairsp;&ndash;&hairsp;{}</small>", number(info, s.min), number(info, s.max));
-    if (info.measure == Measure::bakeSeconds && p.bakeEstimated) cell += "<small>foretold</small>";
+    if (info.measure == Measure::bakeSeconds && p.bakeEstimated) cell += "<small>predicted</small>";
     return cell + "</td>";
   }
 
