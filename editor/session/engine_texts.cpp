@@ -104,9 +104,15 @@ std::optional<std::string> byPattern(const std::string& english, bool errorsOnly
     const auto values = valuesIn(english, pattern);
     if (!values) continue;
     fmt::dynamic_format_arg_store<fmt::format_context> store;
-    for (const std::string& value : *values)
-      store.push_back(pattern.values == Values::error ? inError(value, depth + 1).value_or(value) : value);
-    return translated(pattern.english, store);
+    bool fits = true;
+    for (const std::string& value : *values) {
+      const auto known = pattern.values == Values::error ? inError(value, depth + 1) : std::nullopt;
+      // What begins with a place is an error itself, or the place is taken off first.
+      const bool first = &value == &values->front() && std::string_view(pattern.english).starts_with("{}");
+      fits = fits && (known || !first || pattern.values == Values::list || value.find(": ") == value.npos);
+      store.push_back(known.value_or(value));
+    }
+    if (fits) return translated(pattern.english, store);
   }
   return std::nullopt;
 }
