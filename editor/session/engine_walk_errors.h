@@ -98,6 +98,7 @@ inline constexpr std::array kWalkErrors = {
     trLater("{}x{} pixels: this driver draws at most {} on a side"),
     trLater("not enough memory to hand this view to OpenGL: use smaller captures"),
     trLater("the comparison was stopped"),
+    trLater("{}; {} of them are still above the budget, because the error allows no more"),
     // Walk files: engine/export, engine/pipeline/shipped_walk
     trLater("{}; copy the walk again, or export it anew"), trLater("{}. It is white"),
     trLater("{}. The coarse capture stands in"), trLater("{}. Near geometry is missing there"),

@@ -297,7 +297,7 @@ void Session::followStream() {
   }
   if (walk_->simplified.empty() || stream_->busy()) return;
   if (std::string text = simplifiedText(*walk_); text != simplifiedTold_) {
-    messages_.add(MessageLevel::warning, text);
+    messages_.add(MessageLevel::warning, engineText(text));
     simplifiedTold_ = std::move(text);
   }
 }
