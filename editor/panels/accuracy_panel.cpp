@@ -8,6 +8,7 @@
 
 #include "editor/actions/accuracy_actions.h"
 #include "editor/panels/accuracy_plot.h"
+#include "editor/session/engine_texts.h"
 #include "engine/image/image.h"
 #include "ui/image_view.h"
 #include "ui/text_format.h"
@@ -154,7 +155,8 @@ void drawState(const SweepWatch& watch) {
   if (!sweep) return;
   std::string leftOut;
   for (const SweepPoint& point : sweep->points)
-    if (!point.measured()) leftOut += fmt::format("{}: {}\n", textOf(point.setting), point.skipped);
+    if (!point.measured())
+      leftOut += fmt::format("{}: {}\n", textOf(point.setting), engineText(point.skipped));
   if (!leftOut.empty()) ui::tooltip(trf("Left out:\n{}", leftOut));
 }
 

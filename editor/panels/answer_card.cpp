@@ -98,7 +98,7 @@ std::string costText(const BakeForecast& bake) {
 void apply(PanelContext& context, const PictureQuestion& question, const Improvement& improvement) {
   Session& session = context.session();
   if (session.project() == question.open->project)
-    session.apply({improvement.project, trf("Improve: {}", improvement.what)});
+    session.apply({improvement.project, trf("Improve: {}", engineText(improvement.what))});
   else
     session.messages().add(MessageLevel::warning, tr("The project has changed since: ask the picture again"));
 }
@@ -113,8 +113,8 @@ void drawImprovements(PanelContext& context, const PictureQuestion& question,
     ImGui::AlignTextToFramePadding();
     ImGui::Text("%.1f dB", each.psnrHere);
     ImGui::SameLine(ui::scaled(kCardLabel));
-    ImGui::TextUnformatted(each.what.c_str());
-    ui::tooltip(each.why);
+    ImGui::TextUnformatted(engineText(each.what).c_str());
+    ui::tooltip(engineText(each.why));
     const float width = ui::scaled(64);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
     if (ui::button(fmt::format("{}##{}", tr("Apply"), i).c_str(), {width, 0})) apply(context, question, each);

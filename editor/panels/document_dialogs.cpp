@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "editor/session/engine_texts.h"
 #include "engine/pipeline/new_project.h"
 #include "ui/text_format.h"
 #include "ui/translate.h"
@@ -141,8 +142,9 @@ void drawNewProject(PanelContext& context, const DialogKeys& keys) {
 void drawLockQuestion(PanelContext& context, const DialogKeys& keys) {
   Session& session = context.session();
   if (!beginDialog(trLater("Open in another editor"), 600)) return;
-  ui::wrappedText(ui::palette::text, trf("{} is open at {}. What both save would overwrite each other.",
-                                         session.file().filename().string(), describe(*session.lockedBy())));
+  ui::wrappedText(ui::palette::text,
+                  trf("{} is open at {}. What both save would overwrite each other.",
+                      session.file().filename().string(), engineText(describe(*session.lockedBy()))));
   ButtonRow row(context, 3, ui::scaled(kWideButton));
   const bool takeOver = row.button(tr("Take over"), "takeOver");
   ui::tooltip(tr("The other editor becomes read-only. For one that no longer answers."));

@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include "editor/panels/bake_panel.h"
+#include "editor/session/engine_texts.h"
 #include "ui/text_format.h"
 #include "ui/translate.h"
 
@@ -53,7 +54,7 @@ bool drawGaps(PanelContext& context, const BakeGaps& gaps) {
                   gaps.all() ? tr("Nothing is baked yet, so there is nothing to publish.")
                              : trf("{}. Where captures are missing, the published walk has holes or shows "
                                    "previews.",
-                                   gaps.describe()));
+                                   engineText(gaps.describe())));
   bool close = false;
   if (ui::primaryButton(tr("Bake first"))) {
     if (const Action* bake = findAction(context.table, std::string("bake.start"))) runAction(context, *bake);
@@ -108,7 +109,7 @@ void drawLinks(PanelContext& context) {
                 draft.publicAddress, "publish.publicAddress",
                 tr("Links that are copied here begin with it, in place of this machine's address."));
   const auto checked = checkPublicAddress(draft.publicAddress);
-  if (!checked) ui::wrappedText(ui::palette::danger, checked.error().describe());
+  if (!checked) ui::wrappedText(ui::palette::danger, engineText(checked.error()));
   if (typed && checked) {
     PublishPlace place = context.session().publishPlace();
     place.publicAddress = *checked;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "editor/panels/walk_panel.h"
+#include "editor/session/engine_texts.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
@@ -13,7 +14,7 @@ void WalkPanel::openGl(Session& session) {
     gl_ = std::move(*created);
     return;
   }
-  glProblem_ = created.error().message;
+  glProblem_ = engineText(created.error().message);
   session.messages().add(MessageLevel::warning, trf("{}. Until then the walk is drawn with \"{}\".",
                                                     glProblem_, nameOf(settingsOf(session).renderer)));
 }
@@ -21,7 +22,7 @@ void WalkPanel::openGl(Session& session) {
 bool WalkPanel::receive(PanelContext& context) {
   const Result<bool> ready = gl_->receive();
   if (gl_->anyToReceive()) context.window.pacer().request(1);
-  if (!ready) problem_ = ready.error().describe();
+  if (!ready) problem_ = engineText(ready.error());
   return ready && *ready;
 }
 
@@ -43,7 +44,7 @@ void WalkPanel::drawWithGl(PanelContext& context) {
   if (stats) resolution_.measured(scale, stats->totalSeconds);
   if (stats) times_.add(*stats);
   if (moving) context.window.pacer().request();  // the full picture follows once the eye rests
-  problem_ = stats ? "" : stats.error().describe();
+  problem_ = stats ? "" : engineText(stats.error());
   if (!stats) return;
   ++context.state().picturesShown;
   if (context.log.on())
@@ -75,7 +76,7 @@ void WalkPanel::tryGraphics(PanelContext& context) {
   const auto stats = gl_->draw(shown_.loaded->walk, shown_.view, settings);
   if (stats && (stats->capturesAwaited > 0 || gl_->anyToReceive())) return context.window.pacer().request(1);
   std::string told =
-      stats ? "" : trf("The graphics card cannot draw this walk: {}", stats.error().describe());
+      stats ? "" : trf("The graphics card cannot draw this walk: {}", engineText(stats.error()));
   if (stats) {
     Frame card = gl_->readBack();
     card.stats = *stats;

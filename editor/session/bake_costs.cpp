@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/session.h"
 #include "engine/base/priority.h"
 #include "engine/pipeline/bake_plan.h"
@@ -136,7 +137,7 @@ void BakeCosts::predictNext() {
                         const auto cost = predict(request, bake, true, runner, context);
                         context.post([this, bake, cost] {
                           if (!cost && cost.error().kind != ErrorKind::cancelled)
-                            trouble_ = cost.error().describe();
+                            trouble_ = engineText(cost.error());
                           if (cost) remember(bake, *cost);
                         });
                       });
@@ -162,7 +163,7 @@ void BakeCosts::propose(double bytes) {
                     context.post([this, fitted] {
                       if (fitted) proposal_ = *fitted, remember(fitted->bake, fitted->cost);
                       if (!fitted && fitted.error().kind != ErrorKind::cancelled)
-                        sizeTrouble_ = fitted.error().message;
+                        sizeTrouble_ = engineText(fitted.error().message);
                     });
                   });
 }

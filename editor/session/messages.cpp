@@ -5,6 +5,7 @@
 #include <ctime>
 #include <utility>
 
+#include "editor/session/engine_texts.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
@@ -25,7 +26,7 @@ void Messages::add(MessageLevel level, std::string text) {
 
 void Messages::addFailure(const std::string& what, const Error& error) {
   if (error.kind == ErrorKind::cancelled) return add(MessageLevel::info, trf("{} was cancelled", what));
-  add(MessageLevel::error, trf("{} failed. {}", what, error.describe()));
+  add(MessageLevel::error, trf("{} failed. {}", what, engineText(error)));
   all_.back().modal = true;
   fresh_.back().modal = true;
 }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "editor/session/engine_texts.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
@@ -21,7 +22,7 @@ void PictureAsk::ask(const PictureQuestion& question) {
                                           host = host_](const Job::Context& context) {
     TaskRunner runner(threads - 1);
     const auto fail = [&](const Error& error) {
-      context.post([this, text = error.describe()] { problem_ = text; });
+      context.post([this, text = engineText(error)] { problem_ = text; });
     };
     auto found = askPicture(*asked.open, asked.walk->walk, *asked.frame, asked.view, asked.pixel, runner,
                             context.stop());

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/project_files.h"
 #include "editor/session/settings_file.h"
 #include "engine/base/file.h"
@@ -135,7 +136,7 @@ Preferences loadPreferences(const fs::path& file, std::string* problem) {
   const auto text = readText(file, kLargestPreferences);
   if (!text) {
     if (problem != nullptr && text.error().kind != ErrorKind::notFound)
-      *problem = trf("The preferences cannot be read: {}", text.error().describe());
+      *problem = trf("The preferences cannot be read: {}", engineText(text.error()));
     return preferences;
   }
   const Json json = parseJson<Json>(*text).value_or(Json());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/project_files.h"
 #include "engine/base/priority.h"
 #include "engine/base/stopwatch.h"
@@ -109,7 +110,7 @@ void Publisher::ended(const Outcome& outcome, const std::optional<BakeGaps>& ask
     if (error.kind == ErrorKind::cancelled)
       return messages_.add(MessageLevel::info,
                            tr("Publishing was cancelled; what was published before stays"));
-    trouble_ = error.describe();
+    trouble_ = engineText(error);
     return messages_.add(MessageLevel::error, trf("Publishing failed. {}", trouble_));
   }
   const bool elsewhere = published_ && published_->place.folder != outcome->place.folder;
@@ -132,7 +133,7 @@ void Publisher::serve() {
   if (started)
     server_ = std::move(*started);
   else
-    messages_.add(MessageLevel::error, trf("It cannot be served here. {}", started.error().describe()));
+    messages_.add(MessageLevel::error, trf("It cannot be served here. {}", engineText(started.error())));
 }
 
 /// Elsewhere: browsers hold their connections for a while.
@@ -145,11 +146,11 @@ void Publisher::stopServing() {
 void Publisher::openInBrowser() {
   if (!serving()) return;
   if (Status opened = browser_.open(server_->reportingAddress()); !opened)
-    messages_.add(MessageLevel::warning, opened.error().describe());
+    messages_.add(MessageLevel::warning, engineText(opened.error()));
 }
 
 void Publisher::poll() {
-  if (const auto trouble = browser_.takeTrouble()) messages_.add(MessageLevel::warning, trouble->describe());
+  if (const auto trouble = browser_.takeTrouble()) messages_.add(MessageLevel::warning, engineText(*trouble));
 }
 
 }  // namespace acentric::editor

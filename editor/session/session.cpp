@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/screenshot.h"
 #include "ui/translate.h"
 
@@ -278,7 +279,8 @@ void Session::loaded(std::shared_ptr<WalkStream> stream, const OpenProject& from
   streamedStorey_ = from.project.storey;
   stream_->go(where_);
   if (!keepsWalk()) walk_ = stream_->walk();
-  for (const std::string& warning : stream_->walk()->warnings) messages_.add(MessageLevel::warning, warning);
+  for (const std::string& warning : stream_->walk()->warnings)
+    messages_.add(MessageLevel::warning, engineText(warning));
   if (built_->layout != from.layout || built_->keys != from.keys) loadWanted_ = true;
 }
 
@@ -288,14 +290,14 @@ void Session::followStream() {
   if (const auto warnings = stream_->takeWarnings(); !warnings.empty()) {
     constexpr std::size_t kEach = 3;  // of a whole damaged folder, the first ones say enough
     for (std::size_t w = 0; w < std::min(kEach, warnings.size()); ++w)
-      messages_.add(MessageLevel::warning, warnings[w]);
+      messages_.add(MessageLevel::warning, engineText(warnings[w]));
     if (warnings.size() > kEach)
       messages_.add(MessageLevel::warning, trf("... and {} more like these", warnings.size() - kEach));
     countCaptures();  // what could not be read is no longer there
   }
   if (walk_->simplified.empty() || stream_->busy()) return;
   if (std::string text = simplifiedText(*walk_); text != simplifiedTold_) {
-    messages_.add(MessageLevel::warning, text);
+    messages_.add(MessageLevel::warning, engineText(text));
     simplifiedTold_ = std::move(text);
   }
 }
@@ -347,7 +349,8 @@ void Session::readAround(const glm::dvec2& place) {
 }
 
 void Session::arrived(const ShippedWalkPtr& place) {
-  for (const std::string& warning : place->warnings) messages_.add(MessageLevel::warning, warning);
+  for (const std::string& warning : place->warnings)
+    messages_.add(MessageLevel::warning, engineText(warning));
   shipped_ = place;
   show(openProject(*shipped_, project()));
   loadCaptures();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/session.h"
 #include "engine/base/file.h"
 #include "engine/base/priority.h"
@@ -108,7 +109,8 @@ void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
           // Whether it had changed before is told elsewhere: what is shown may be baked all the same.
           guard->watch(modelFiles(open->file, open->project, host, std::filesystem::file_time_type::max()));
           if (!guard->note().empty())
-            context.post([this, note = guard->note()] { messages_.add(MessageLevel::warning, note); });
+            context.post(
+                [this, note = guard->note()] { messages_.add(MessageLevel::warning, engineText(note)); });
           report = bakeStoreys(*open, from, known, memory, host, *guard, runner, context);
         } else {
           report = tl::unexpected(guard.error());
@@ -202,7 +204,7 @@ void Session::bakeEnded(const Result<ProjectBakeReport>& report) {
   messages_.add(MessageLevel::good,
                 trf("Baked {} captures, {} were there already", captures.baked, captures.reused));
   for (const std::string& refused : report->refused)
-    messages_.add(MessageLevel::error, trf("Baked, and could not be written: {}", refused));
+    messages_.add(MessageLevel::error, trf("Baked, and could not be written: {}", engineText(refused)));
 }
 
 void Session::estimateBake() { estimateBake(false); }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/project_files.h"
 #include "editor/session/session.h"
 #include "ui/text_format.h"
@@ -112,7 +113,8 @@ void Session::opened(Opened opened) {
                                : trf("Recovered {}", file_.filename().string());
   messages_.add(MessageLevel::good, fmt::format("{}{}: {}", from, shipped_ ? tr(", a walk") : "", size));
   if (shipped_)
-    for (const std::string& warning : shipped_->warnings) messages_.add(MessageLevel::warning, warning);
+    for (const std::string& warning : shipped_->warnings)
+      messages_.add(MessageLevel::warning, engineText(warning));
   else
     watchScene(opened.withoutModel);
   locateQuestion_ = opened.withoutModel;
@@ -217,12 +219,12 @@ Status Session::saveAs(const fs::path& target) {
   const auto moved = movedProject(project(), file_, file, options_.importHost);
   if (!moved) return tl::unexpected(moved.error());
   if (const auto other = readLock(file); other && !isStale(*other) && !(lock_ && file == file_))
-    return fail(ErrorKind::unreadable, trf("is open in another editor, at {}", describe(*other)),
+    return fail(ErrorKind::unreadable, trf("is open in another editor, at {}", engineText(describe(*other))),
                 file.string());
   if (Status saved = saveProject(*moved, file); !saved) return saved;
   if (const auto shared = shareCaptures(file_, file); !shared)
     messages_.add(MessageLevel::warning, trf("The captures stayed behind and have to be baked again. {}",
-                                             shared.error().describe()));
+                                             engineText(shared.error())));
   forgetAutosave();
 
   if (moved->scene != project().scene)
@@ -287,7 +289,7 @@ void Session::remember(const fs::path& file) {
 
 void Session::savePreferencesNow() {
   if (const Status saved = savePreferences(preferences_, options_.preferencesFile); !saved)
-    messages_.add(MessageLevel::warning, trf("Preferences are not kept. {}", saved.error().describe()));
+    messages_.add(MessageLevel::warning, trf("Preferences are not kept. {}", engineText(saved.error())));
 }
 
 /// Beside the project, unless it has no file yet or the file is another editor's.
@@ -324,7 +326,7 @@ void Session::lookForAutosave() {
   const fs::path aside = putAside(autosaveFileFor(file_));
   messages_.add(MessageLevel::warning,
                 trf("What the last run autosaved cannot be read, and is kept as {}. {}",
-                    aside.filename().string(), found.error().describe()));
+                    aside.filename().string(), engineText(found.error())));
 }
 
 void Session::autosave(double now) {
@@ -345,8 +347,8 @@ void Session::keepWork() {
     if (!recovered_.empty() && recovered_ != autosaveFile()) fs::remove(recovered_, error);
     return;
   }
-  notKept_ = trf("Unsaved changes are not autosaved: {}", written.error().describe());
-  messages_.add(MessageLevel::warning, trf("Autosave failed. {}", written.error().describe()));
+  notKept_ = trf("Unsaved changes are not autosaved: {}", engineText(written.error()));
+  messages_.add(MessageLevel::warning, trf("Autosave failed. {}", engineText(written.error())));
 }
 
 }  // namespace acentric::editor

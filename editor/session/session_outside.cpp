@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "editor/commands/setting_edits.h"
+#include "editor/session/engine_texts.h"
 #include "editor/session/project_files.h"
 #include "editor/session/session.h"
 #include "ui/translate.h"
@@ -17,7 +18,7 @@ void Session::takeLock(bool force) {
   lock_ = std::move(attempt.lock);
   lockedBy_ = std::move(attempt.heldBy);
   lockQuestion_ = lockedBy_.has_value();
-  if (!attempt.note.empty()) messages_.add(MessageLevel::warning, attempt.note);
+  if (!attempt.note.empty()) messages_.add(MessageLevel::warning, engineText(attempt.note));
 }
 
 void Session::leaveLock() {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/session.h"
 #include "engine/inspect/fit.h"
 #include "engine/inspect/refine.h"
@@ -142,7 +143,7 @@ void Session::splitOverBudget() {
           const std::string left = refined->over.empty()
                                        ? tr("none exceeds the budget now")
                                        : trf("{} still exceed the budget: {}", refined->over.size(),
-                                             describe(refined->over.front().why));
+                                             engineText(describe(refined->over.front().why)));
           if (refined->split == 0)
             return messages_.add(MessageLevel::info, trf("No cell was split: {}", left));
           offerLayout(*open, refined->spec, tr("Split what exceeds the budget"),

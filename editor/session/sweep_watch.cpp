@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "editor/session/engine_texts.h"
 #include "engine/base/contract.h"
 #include "engine/base/file.h"
 #include "engine/base/spawn.h"
@@ -138,7 +139,7 @@ bool SweepWatch::look() {
   } else {
     sweep_.reset();
     std::error_code error;
-    if (fs::exists(file, error)) fileTrouble_ = parsed.error().describe();
+    if (fs::exists(file, error)) fileTrouble_ = engineText(parsed.error());
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "editor/session/engine_texts.h"
 #include "editor/session/truth_compare.h"
 #include "engine/pipeline/bake_plan.h"
 #include "engine/view/view_cameras.h"
@@ -95,7 +96,7 @@ void VariantCompare::draw(const Key& key, std::size_t memoryBytes) {
     TaskRunner runner(threads - 1);
     const auto fail = [&](const Error& error) {
       if (error.kind != ErrorKind::cancelled)
-        context.post([this, text = error.describe()] { problem_ = text; });
+        context.post([this, text = engineText(error)] { problem_ = text; });
     };
     auto own = stream;
     if (!own) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "editor/session/engine_texts.h"
 #include "engine/view/view_cameras.h"
 
 namespace acentric::editor {
@@ -74,7 +75,7 @@ void WalkRenderer::loop(const std::stop_token& stop) {
     if (frame)
       picture.frame = std::move(*frame);
     else
-      picture.problem = frame.error().describe();
+      picture.problem = engineText(frame.error());
     {
       const std::lock_guard lock(mutex_);
       finished_ = std::move(picture);
