@@ -163,7 +163,7 @@ inline constexpr std::array kErrors = {
     trLater("splitting it further does not lower its worst part"), trLater("a free APV cannot be split"),
     trLater("more splits would give too many regions"),
     // Improvement::what and why, of engine/pipeline/ask_picture
-    trLater("samples per degree {} to {}"), trLater("samples per degree of this cell times {}"),
+    trLater("samples per degree {} to {}"), trLater("samples per degree here times {}"),
     trLater("split the cell ({}, {}) into four"), trLater("cell size {} to {}"),
     trLater("near band {} to {}"), trLater("layers {} to {}"),
     trLater("test eyes {} to {}, half the pruning loss"), trLater("surface texel {} to {}"),

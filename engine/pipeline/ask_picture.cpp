@@ -125,7 +125,7 @@ std::optional<Candidate> finerHere(const OpenProject& open, int region) {
   LayoutSpec& spec = c.project.layout();
   const double before = densityOf(spec, cell), now = std::min(kMostRegionDensity, 1.5 * before);
   spec.density[cell] = now;
-  c.what = fmt::format("samples per degree of this cell times {:.3g}", now / before);
+  c.what = fmt::format("samples per degree here times {:.3g}", now / before);
   return c;
 }
 
