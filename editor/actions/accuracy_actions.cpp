@@ -58,20 +58,20 @@ void applySetting(ActionContext& c, const SweepSetting& setting, const std::stri
 void addAccuracyActions(std::vector<Action>& table) {
   table.push_back(
       {"sweep.start",
-       "Walk",
+       "Accuracy",
        trLater("Measure accuracy against time"),
        {},
        {},
        trLater(
            "Tries settings one by one, then together, on the same frames against ray-traced truth; goes on "
            "where it ended"),
-       true,
+       false,
        canMeasure,
        [](ActionContext& c) { measure(c, false); },
        {},
        kNeeds});
   table.push_back({"sweep.again",
-                   "Walk",
+                   "Accuracy",
                    trLater("Measure it anew"),
                    {},
                    {},
@@ -82,7 +82,7 @@ void addAccuracyActions(std::vector<Action>& table) {
                    {},
                    kNeeds});
   table.push_back({"sweep.stop",
-                   "Walk",
+                   "Accuracy",
                    trLater("Stop measuring accuracy"),
                    {},
                    {},
@@ -97,7 +97,7 @@ void addAccuracyActions(std::vector<Action>& table) {
   const auto preset = [&table](const char* name, const char* label, const char* help) {
     table.push_back(
         {std::string("preset.") + name,
-         "Walk",
+         "Accuracy",
          label,
          {},
          {},
@@ -117,7 +117,7 @@ void addAccuracyActions(std::vector<Action>& table) {
   preset("accurate", trLater("Use the accurate preset"), trLater("Of what is worth having, the least error"));
   table.push_back(
       {"goals.show",
-       "Walk",
+       "Accuracy",
        trLater("Keep to goals"),
        {},
        {},
@@ -128,7 +128,7 @@ void addAccuracyActions(std::vector<Action>& table) {
        {}});
   table.push_back(
       {"goals.start",
-       "Walk",
+       "Accuracy",
        trLater("Look for what keeps the goals"),
        {},
        {},
@@ -142,7 +142,7 @@ void addAccuracyActions(std::vector<Action>& table) {
        {},
        trLater("a goal, and a saved project that is not being measured")});
   table.push_back({"goals.stop",
-                   "Walk",
+                   "Accuracy",
                    trLater("Stop looking for what keeps the goals"),
                    {},
                    {},
@@ -156,7 +156,7 @@ void addAccuracyActions(std::vector<Action>& table) {
                    trLater("a search that runs")});
   table.push_back(
       {"goals.take",
-       "Walk",
+       "Accuracy",
        trLater("Take what keeps the goals best"),
        {},
        {},

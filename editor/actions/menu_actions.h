@@ -55,7 +55,7 @@ void addScene3dActions(std::vector<Action>& table);
 void addWalkViewActions(std::vector<Action>& table);
 /// Recording, replay, paths and bookmarks.
 void addPathActions(std::vector<Action>& table);
-/// What accuracy costs in time, and presets of it: part of the Walk menu.
+/// What accuracy costs in time, presets of it, and goals: the Accuracy menu.
 void addAccuracyActions(std::vector<Action>& table);
 /// Presets of the bake's settings, in the Walk menu, and the ways to settings that are folded away.
 void addQualityActions(std::vector<Action>& table);

@@ -13,7 +13,12 @@
 namespace acentric::editor {
 namespace {
 
-constexpr float kCardWidth = 390, kCardMargin = 12, kCardLabel = 84;
+constexpr float kCardWidth = 404, kCardMargin = 12, kCardLabel = 98;
+
+/// As wide as its word in any language.
+float buttonWidth(const char* word) {
+  return std::max(ui::scaled(64), ImGui::CalcTextSize(word).x + ui::scaled(18));
+}
 
 void boldLine(PanelContext& context, const char* text) {
   ImGui::Dummy({0, ui::scaled(2)});
@@ -115,7 +120,7 @@ void drawImprovements(PanelContext& context, const PictureQuestion& question,
     ImGui::SameLine(ui::scaled(kCardLabel));
     ImGui::TextUnformatted(engineText(each.what).c_str());
     ui::tooltip(engineText(each.why));
-    const float width = ui::scaled(64);
+    const float width = buttonWidth(tr("Apply"));
     ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
     if (ui::button(fmt::format("{}##{}", tr("Apply"), i).c_str(), {width, 0})) apply(context, question, each);
     context.log.item(fmt::format("answer.apply.{}", i));
@@ -146,8 +151,9 @@ std::pair<ImVec2, ImVec2> drawAnswerCard(PanelContext& context, const ImVec2& ar
   bool close = false;
   if (const PictureQuestion question = *asked.question(); asked.answer()) {
     boldLine(context, engineText(sourceName(*question.open->layout, asked.answer()->source)).c_str());
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ui::scaled(64));
-    close = ui::button(tr("Close"), {ui::scaled(64), 0});
+    const float width = buttonWidth(tr("Close"));
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+    close = ui::button(tr("Close"), {width, 0});
     context.log.item("answer.close");
     drawAnswer(question, *asked.answer());
     if (asked.improvements())

@@ -50,7 +50,7 @@ MenuBar drawMenuBar(PanelContext& context) {
   }
   ImGuiWindow& bar = *ImGui::GetCurrentWindow();
   for (const char* menu : {trLater("File"), trLater("Edit"), trLater("View"), trLater("Plan"),
-                           trLater("Walk"), trLater("Help")}) {
+                           trLater("Walk"), trLater("Accuracy"), trLater("Help")}) {
     const std::string id = std::string("###") + menu, shown = tr(menu);
     const ImVec2 at = ImGui::GetCursorScreenPos() - bar.Pos;
     const bool open = ImGui::BeginMenu((shown + id).c_str());
