@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/layout/density.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
-
-void giveDensity(LayoutSpec& spec, const CellId& cell, double density) {
-  spec.density.erase(cell);
-  // What surrounds a part may have a density of its own.
-  if (densityOf(spec, cell) != density) spec.density[cell] = density;
-}
 
 double densityAfter(double density, int steps) {
   constexpr double kSameRung = 1e-3;

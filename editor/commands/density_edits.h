@@ -9,9 +9,6 @@
 
 namespace acentric::editor {
 
-/// To a cell, or a free APV, of a spec: what other edits are made of. 1: as the project has it.
-void giveDensity(LayoutSpec& spec, const CellId& cell, double density);
-
 /// `steps` rungs up or down from a density, of which each doubles or halves the samples: ... 0.71, 1, 1.41
 /// ... One between two rungs goes to the next of them. Within kLeastRegionDensity..kMostRegionDensity.
 double densityAfter(double density, int steps);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/commands/density_edits.h"
 #include "editor/commands/layout_edits.h"
 #include "engine/base/contract.h"
+#include "engine/layout/density.h"
 #include "engine/layout/placement.h"
 #include "ui/translate.h"
 

@@ -107,7 +107,7 @@ void drawToolbar(PanelContext& context) {
     ImGui::SameLine(0, ui::scaled(goals ? kApart : kButtonGap));
   }
   SweepRequest& request = state.goals ? state.goalsRequest : state.request;
-  AccuracyAxes& axes = state.goals ? state.goalsAxes : state.axes;
+  AccuracyAxes& axes = state.shownAxes();
   const char* begin = state.goals ? tr("Find") : tr("Measure");
   if (watch.running())
     actionButton(context, state.goals ? "goals.stop" : "sweep.stop", ButtonLook::plain, {},
@@ -253,7 +253,7 @@ void drawProposal(PanelContext& context, const Sweep& sweep, float right) {
 
 PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
                 const std::vector<SweepPreset>& presets) {
-  const AccuracyAxes& axes = state.goals ? state.goalsAxes : state.axes;
+  const AccuracyAxes& axes = state.shownAxes();
   const double across = infoOf(axes.cost).shown;
   const Spread& x = point[axes.cost];
   PlotMark mark;
@@ -273,7 +273,7 @@ PlotMark markOf(const SweepPoint& point, const AccuracyState& state,
 void AccuracyPanel::drawPlot(PanelContext& context, const Sweep& sweep, const ImVec2& low,
                              const ImVec2& high) {
   AccuracyState& state = context.state().accuracy;
-  const AccuracyAxes& axes = state.goals ? state.goalsAxes : state.axes;
+  const AccuracyAxes& axes = state.shownAxes();
   const MeasureInfo &error = infoOf(axes.error), &cost = infoOf(axes.cost);
   const auto presets = presetsOf(sweep);
   std::vector<PlotMark> marks;

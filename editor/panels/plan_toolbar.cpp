@@ -120,23 +120,31 @@ void drawDensityRow(PanelContext& context) {
   }
 }
 
-void drawPlanToolbar(PanelContext& context) {
+void drawPlanTools(PanelContext& context) {
   using enum ButtonLook;
   static constexpr ToolbarEntry kTools[] = {
-      {"tool.cells", trLater("Cells"), ui::Icon::pointer, 0, tool},
       {"tool.eye", trLater("Eye"), ui::Icon::person, kNear, tool},
       {"tool.outline", trLater("Outline"), ui::Icon::corners, kNear, tool},
       {"tool.panorama", trLater("APV"), ui::Icon::bullseye, kNear, tool},
       {"tool.lattice", trLater("Lattice"), ui::Icon::arrows, kNear, tool},
       {"tool.measure", trLater("Measure"), ui::Icon::arrowsAcross, kNear, tool},
       {"tool.path", trLater("Path"), ui::Icon::road, kNear, tool},
-      {"tool.density", trLater("Density"), ui::Icon::brush, kNear, tool},
+      {"tool.density", trLater("Density"), ui::Icon::brush, kNear, tool}};
+  toolbar(context, kTools);
+}
+
+void drawPlanToolbar(PanelContext& context) {
+  using enum ButtonLook;
+  static constexpr ToolbarEntry kFirst[] = {{"tool.cells", trLater("Cells"), ui::Icon::pointer, 0, tool}};
+  static constexpr ToolbarEntry kShown[] = {
       {"view.backdrop", trLater("Scene"), ui::Icon::picture, kApart},
       {"view.lattice", trLater("Free cells"), ui::Icon::grid, kNear},
       {"view.cameras", trLater("Cameras"), ui::Icon::videoCamera, kNear}};
   static constexpr ToolbarEntry kView[] = {{"view.table", trLater("Regions"), ui::Icon::table, kApart},
                                            {"view.fit", trLater("Fit"), ui::Icon::expand, kNear, plain}};
-  toolbar(context, kTools);
+  toolbar(context, kFirst);
+  drawPlanTools(context);
+  toolbar(context, kShown);
   drawOverlayMenu(context);
   toolbar(context, kView);
   if (context.state().overlay == PlanOverlay::coverage) drawCoverageRow(context);

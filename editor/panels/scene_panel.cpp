@@ -37,23 +37,19 @@ ScenePanel::ScenePanel(int threads, std::function<void()> wake)
 
 void ScenePanel::drawToolbar(PanelContext& context) const {
   using enum ButtonLook;
-  static constexpr ToolbarEntry kEntries[] = {
+  static constexpr ToolbarEntry kFirst[] = {
       {"scene3d.select", trLater("Select"), ui::Icon::pointer, 0, tool},
-      {"scene3d.place", trLater("Place cells"), ui::Icon::grid, kNear, tool},
-      {"tool.eye", trLater("Eye"), ui::Icon::person, kNear, tool},
-      {"tool.outline", trLater("Outline"), ui::Icon::corners, kNear, tool},
-      {"tool.panorama", trLater("APV"), ui::Icon::bullseye, kNear, tool},
-      {"tool.lattice", trLater("Lattice"), ui::Icon::arrows, kNear, tool},
-      {"tool.measure", trLater("Measure"), ui::Icon::arrowsAcross, kNear, tool},
-      {"tool.path", trLater("Path"), ui::Icon::road, kNear, tool},
-      {"tool.density", trLater("Density"), ui::Icon::brush, kNear, tool},
+      {"scene3d.place", trLater("Place cells"), ui::Icon::grid, kNear, tool}};
+  static constexpr ToolbarEntry kShown[] = {
       {"scene3d.pick", trLater("Pick"), ui::Icon::crosshairs, kApart, ButtonLook::tool},
       {"scene3d.lookThrough", trLater("Look through"), ui::Icon::binoculars, kNear, ButtonLook::tool},
       {"scene3d.cut", trLater("Cut ceiling"), ui::Icon::scissors, kApart},
       {"view.cameras", trLater("Cameras"), ui::Icon::videoCamera, kNear},
       {"scene3d.frusta", trLater("All sectors"), ui::Icon::sector, kNear},
       {"view.fit", trLater("Frame"), ui::Icon::expand, kApart, ButtonLook::plain}};
-  toolbar(context, kEntries);
+  toolbar(context, kFirst);
+  drawPlanTools(context);
+  toolbar(context, kShown);
   drawDensityRow(context);
 }
 

@@ -20,6 +20,9 @@ struct AccuracyState {
   AccuracyAxes axes{Measure::msSsim, Measure::frameMs}, goalsAxes{Measure::psnr, Measure::bytes};
   std::optional<SweepSetting> selected;
   bool difference = false;  ///< the picture shows how far the frame is from the truth
+
+  AccuracyAxes& shownAxes() { return goals ? goalsAxes : axes; }
+  const AccuracyAxes& shownAxes() const { return goals ? goalsAxes : axes; }
 };
 
 }  // namespace acentric::editor

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/geometry/conventions.h"
+#include "engine/layout/density.h"
 #include "engine/layout/panoramas.h"
 
 namespace acentric::cli {
@@ -61,10 +62,7 @@ Status applyCells(LayoutSpec& spec, const LayoutEdits& edits) {
   for (const std::string& text : edits.density) {
     const auto density = parseDensity(text);
     if (!density) return tl::unexpected(density.error());
-    if (density->second == 1)
-      spec.density.erase(density->first);
-    else
-      spec.density[density->first] = density->second;
+    giveDensity(spec, density->first, density->second);
   }
   return {};
 }

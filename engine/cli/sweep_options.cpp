@@ -6,6 +6,19 @@
 namespace acentric::cli {
 namespace {
 
+/// Which frames settings are compared in, and how.
+template <class Options>
+void addFrames(CLI::App& command, Options& o, const char* repeats) {
+  command.add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  command.add_option("--frames", o.frames, "Frames along the path, evenly chosen")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command.add_option("--repeats", o.repeats, repeats)->check(CLI::Range(1, 1000))->capture_default_str();
+  command.add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
+      ->check(CLI::IsMember({1, 4, 9, 16}))
+      ->capture_default_str();
+}
+
 void addSweep(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(
       app, chosen, "sweep",
@@ -29,16 +42,7 @@ void addSweep(CLI::App& app, Chosen& chosen) {
        "Minutes that it may take; what would not fit is skipped, and said to be. A later call goes on")
       ->check(CLI::Range(0.01, 1e5))
       ->capture_default_str();
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--frames", o.frames, "Frames along the path, evenly chosen")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  c->add_option("--repeats", o.repeats, "Times that frames and loading are timed")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
-      ->check(CLI::IsMember({1, 4, 9, 16}))
-      ->capture_default_str();
+  addFrames(*c, o, "Times that frames and loading are timed");
   c->add_option("--crossings", o.crossings, "Changes of region that flicker is measured at (0 = all)")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
@@ -77,16 +81,7 @@ void addPropose(CLI::App& app, Chosen& chosen) {
   c->add_option("--budget-minutes", o.budgetMinutes, "Minutes that it may take. A later call goes on")
       ->check(CLI::Range(0.01, 1e5))
       ->capture_default_str();
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--frames", o.frames, "Frames along the path, evenly chosen")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  c->add_option("--repeats", o.repeats, "Times that frames are timed")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  c->add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
-      ->check(CLI::IsMember({1, 4, 9, 16}))
-      ->capture_default_str();
+  addFrames(*c, o, "Times that frames are timed");
   c->add_flag("--again", o.again, "Forget what was measured into the folder before");
   c->add_flag("--apply", o.apply, "Write the best to the project");
   c->add_option("-o,--output", o.output,

@@ -50,16 +50,6 @@ const SweepPoint* sameBake(const Sweep& known, const std::string& key) {
   return found == known.points.end() ? nullptr : &*found;
 }
 
-double pixelsOf(const OpenProject& open, std::span<const int> cameras) {
-  double pixels = 0;
-  for (const int camera : cameras) {
-    const ColumnCamera columns = columnCameraFor(open.layout->cameras[std::size_t(camera)], *open.layout,
-                                                 open.scene->bounds, open.project.bake);
-    pixels += double(columns.columns) * columns.rows;
-  }
-  return pixels;
-}
-
 Spread single(double value) { return {value, value, value, value, 1}; }
 
 }  // namespace
@@ -220,8 +210,8 @@ Status SweepRun::bakeViews(const Prospect& prospect, const Sweep& known, SweepPo
   } else {
     // As far as the project as it is was from what its own few captures say.
     const OpenProject& base = walk_.storeys.front();
-    const double told = known.find({})->values[std::size_t(Measure::bytes)].median -
-                        double(store_->bytesOf(base.surfaceLightKey));
+    const double told =
+        (*known.find({}))[Measure::bytes].median - double(store_->bytesOf(base.surfaceLightKey));
     point[Measure::bytes] = single(all(share) * told / all(shareOf(base)) + light);
     point[Measure::bakeSeconds] = single(secondsPerPixel_ * share.allPixels + lightSeconds_);
   }

@@ -45,7 +45,8 @@ void addRoles(const Lattice& lattice, const CellId& cell, double nearBand, Layou
 double densityOf(const LayoutSpec& spec, const Lattice& lattice, CellId id) {
   for (;; id = lattice.parentOf(id)) {
     if (const auto own = spec.density.find(id); own != spec.density.end()) return own->second;
-    if (id.slot == kFreeSlot || id.level <= 0 || !canSplit(spec.configuration)) return 1;
+    const bool part = id.slot != kFreeSlot && id.level > 0 && id.level <= kMaxLevel;
+    if (!part || !canSplit(spec.configuration)) return 1;
   }
 }
 

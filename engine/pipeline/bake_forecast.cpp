@@ -15,16 +15,6 @@ namespace {
 /// Of a sample that is ready to be drawn.
 constexpr double kShownSampleBytes = sizeof(PackedSample) + sizeof(Rgba8);
 
-double pixelsOf(const OpenProject& open, const std::vector<int>& cameras) {
-  double pixels = 0;
-  for (const int camera : cameras) {
-    const ColumnCamera columns = columnCameraFor(open.layout->cameras[std::size_t(camera)], *open.layout,
-                                                 open.scene->bounds, open.project.bake);
-    pixels += double(columns.columns) * columns.rows;
-  }
-  return pixels;
-}
-
 /// `there`: by camera, is its capture on disk? `best`: of each, what is.
 BakeShare shareOf(const OpenProject& open, const BakeRequest& request, const std::vector<bool>& there,
                   bool lightThere, const std::vector<std::optional<ContentKey>>& best) {
@@ -86,6 +76,16 @@ std::string timeText(double seconds) {
 }
 
 }  // namespace
+
+double pixelsOf(const OpenProject& open, std::span<const int> cameras) {
+  double pixels = 0;
+  for (const int camera : cameras) {
+    const ColumnCamera columns = columnCameraFor(open.layout->cameras[std::size_t(camera)], *open.layout,
+                                                 open.scene->bounds, open.project.bake);
+    pixels += double(columns.columns) * columns.rows;
+  }
+  return pixels;
+}
 
 std::vector<int> allCamerasOf(const Layout& layout) {
   std::vector<int> all(layout.cameras.size());

@@ -16,6 +16,9 @@ namespace acentric {
 /// Their numbers.
 std::vector<int> allCamerasOf(const Layout& layout);
 
+/// Of their captures together.
+double pixelsOf(const OpenProject& open, std::span<const int> cameras);
+
 /// What a bench bakes to measure it: more than once perhaps, and not to stay.
 struct TrialBake {
   enum class Kept { onDisk, inMemory, letGo };
