@@ -7,18 +7,15 @@
 namespace acentric::editor {
 namespace {
 
-/// The cell that the walk's eye stands in.
-std::set<CellId> cellOfEye(const ActionContext& c) {
-  if (!withBuilt(c)) return {};
-  const Layout& layout = *c.session.built()->layout;
-  const auto region = layout.regionAt(glm::dvec2(c.state.walker.pose().eye));
-  return region ? std::set<CellId>{layout.regions[std::size_t(*region)].id} : std::set<CellId>{};
+std::set<CellId> cellsOfEye(const ActionContext& c) {
+  const auto cell = cellOfEye(c);
+  return cell ? std::set<CellId>{*cell} : std::set<CellId>{};
 }
 
 /// Those that are selected, where the plan or the 3D view shows them; else the one that the eye stands in.
 std::set<CellId> cellsMeant(const ActionContext& c) {
   const bool walkAlone = c.state.fullScreen || c.state.whole == WholeView::walk;
-  return walkAlone || c.state.selection.empty() ? cellOfEye(c) : c.state.selection;
+  return walkAlone || c.state.selection.empty() ? cellsOfEye(c) : c.state.selection;
 }
 
 void tell(ActionContext& c, const std::set<CellId>& cells) {
@@ -74,10 +71,10 @@ void addDensityActions(std::vector<Action>& table) {
           [](const Project& p, const std::set<CellId>& cells) { return setDensity(p, cells, 1); });
   density("density.moreHere", trLater("More resolution here"), {key::rightBracket, ui::modifier::shift},
           trLater("Twice the samples, and bytes, for the cell that the walk's eye stands in"), false,
-          cellOfEye, step(1));
+          cellsOfEye, step(1));
   density("density.fewerHere", trLater("Fewer bytes here"), {key::leftBracket, ui::modifier::shift},
           trLater("Half the samples, and bytes, for the cell that the walk's eye stands in"), false,
-          cellOfEye, step(-1));
+          cellsOfEye, step(-1));
 }
 
 }  // namespace acentric::editor

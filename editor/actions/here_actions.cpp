@@ -53,13 +53,19 @@ void addApvAt(ActionContext& c, const glm::dvec2& place) {
 }
 
 void selectCellHere(ActionContext& c) {
-  const Layout& layout = *c.session.built()->layout;
-  const auto region = layout.regionAt(eyePlace(c));
-  if (!region) return tell(c, tr("No cell covers the place where the eye is. Add one there (Insert)."));
-  c.state.selection = {layout.regions[std::size_t(*region)].id};
+  const auto cell = cellOfEye(c);
+  if (!cell) return tell(c, tr("No cell covers the place where the eye is. Add one there (Insert)."));
+  c.state.selection = {*cell};
 }
 
 }  // namespace
+
+std::optional<CellId> cellOfEye(const ActionContext& c) {
+  if (!withBuilt(c)) return std::nullopt;
+  const Layout& layout = *c.session.built()->layout;
+  const auto region = layout.regionAt(eyePlace(c));
+  return region ? std::optional(layout.regions[std::size_t(*region)].id) : std::nullopt;
+}
 
 void addHereActions(std::vector<Action>& table) {
   const auto here = [&table](const char* id, const char* label, const Shortcut& shortcut, const char* help,

@@ -1,6 +1,7 @@
 #pragma once
 /// The actions by menu; makeActionTable() puts them in order. Each appends to the table.
 
+#include <optional>
 #include <vector>
 
 #include "editor/actions/action.h"
@@ -19,6 +20,9 @@ inline bool withProject(const ActionContext& c) { return c.session.hasProject();
 inline bool withBuilt(const ActionContext& c) {
   return c.session.hasProject() && c.session.built() != nullptr;
 }
+
+/// Which the walk's eye stands in.
+std::optional<CellId> cellOfEye(const ActionContext& c);
 
 /// Four views in place of panels, which only a project has.
 bool fourViews(const ActionContext& c);

@@ -25,9 +25,8 @@ bool editable(const ActionContext& c) {
   return c.session.hasProject() && c.session.built() && !c.session.shippedWalk();
 }
 
-/// Keeps the height of what is drawn nearest to a pixel.
+/// Keeps the height of what is drawn nearest.
 struct NearestLevel {
-  glm::dvec2 pixel;
   double pixels;
   double level;
   void offer(double away, double z) {
@@ -39,7 +38,7 @@ struct NearestLevel {
 /// that of the selected path's end, else the eyes'.
 double pathLevel(const ActionContext& c, const glm::dvec2& pixel, const SceneSight& sight) {
   const LayoutSpec& spec = c.session.project().layout();
-  NearestLevel nearest{pixel, 2 * kGrabPixels * sight.scale, spec.floorHeight + spec.eyeHeight};
+  NearestLevel nearest{2 * kGrabPixels * sight.scale, spec.floorHeight + spec.eyeHeight};
   const PathSituation paths = pathSituation(c);
   if (const WalkPath* walk = paths.selection.path(c.session.project());
       walk != nullptr && walk->storey == paths.storey && !walk->path.poses.empty())

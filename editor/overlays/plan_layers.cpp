@@ -168,8 +168,9 @@ void PlanLayers::drawDensities(ImDrawList& list, const ui::CanvasView& view, ImF
   constexpr double kRoom = 30;  // pixels per cell edge
   if (!shown_.layout || cellPixels(view) < kRoom) return;
   for (std::size_t r = 0; r < middles_.size(); ++r) {
+    if (densities_[r] == 1) continue;
     const glm::dvec2 at = view.screenFromWorld(middles_[r]);
-    if (densities_[r] != 1 && view.contains(at))
+    if (view.contains(at))
       ui::drawLabel(list, font, ui::imVec(at + glm::dvec2(8, 9)), palette::text,
                     ("× " + densityText(densities_[r])).c_str());
   }

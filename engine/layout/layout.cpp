@@ -350,6 +350,7 @@ ConvexPolygon cellPolygon(const LayoutSpec& spec, const CellId& id) {
 }
 
 double densityOf(const LayoutSpec& spec, const CellId& id) {
+  if (spec.density.empty()) return 1;  // of most layouts: no lattice need be made
   const std::optional<Lattice> lattice = latticeFor(spec);
   return lattice ? densityOf(spec, *lattice, id) : 1;
 }
