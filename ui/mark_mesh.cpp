@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include "ui/vertex_layout.h"
+
 namespace acentric::ui {
 namespace {
 
@@ -13,8 +15,6 @@ struct Instance {
 static_assert(sizeof(Instance) == 20);
 
 constexpr float kSectorFill = 0.22F, kSectorLine = 0.8F;  // opacities
-
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "ui/vertex_layout.h"
+
 namespace acentric::ui {
 namespace {
 
@@ -18,11 +20,6 @@ struct Edge {
 };
 static_assert(sizeof(Corner) == 12 && sizeof(Edge) == 20);
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
-void floats(unsigned place, int count, std::size_t stride, std::size_t at) {
-  glVertexAttribPointer(place, count, GL_FLOAT, GL_FALSE, GLsizei(stride), offset(at));
-}
 void word(unsigned place, std::size_t stride, std::size_t at) {
   glVertexAttribIPointer(place, 1, GL_UNSIGNED_INT, GLsizei(stride), offset(at));
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "ui/vertex_layout.h"
+
 namespace acentric::ui {
 namespace {
 
@@ -18,12 +20,6 @@ struct FaceInstance {
   std::uint32_t colour;
 };
 static_assert(sizeof(LineInstance) == 32 && sizeof(FaceInstance) == 40);
-
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
-void floats(unsigned place, int count, std::size_t stride, std::size_t at) {
-  glVertexAttribPointer(place, count, GL_FLOAT, GL_FALSE, GLsizei(stride), offset(at));
-}
 
 void layOut(const LineInstance*) {
   constexpr std::size_t kStride = sizeof(LineInstance);

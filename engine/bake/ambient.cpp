@@ -1,4 +1,5 @@
 #include "engine/bake/ambient.h"
+#include "engine/image/colour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace {
 constexpr int kFreeDirections = 24;
 /// Directions flatter than this carry next to no light, and graze the surface.
 constexpr float kFlattest = 1e-3f;
-
-float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 }  // namespace
 

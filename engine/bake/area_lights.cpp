@@ -7,6 +7,7 @@
 
 #include "engine/bake/ray_scene.h"
 #include "engine/bake/spherical_triangle.h"
+#include "engine/image/colour.h"
 #include "engine/scene/emitters.h"
 
 namespace acentric {
@@ -24,8 +25,6 @@ constexpr std::uint32_t kTabledEmitters = 32;
 constexpr int kTableCells = 16, kTableSide = kTableCells + 1;
 /// Shadow rays end this share before the light, so that it does not shade itself.
 constexpr float kShortOfLight = 1 - 1e-4f;
-
-float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 glm::dvec3 octahedronDirection(double x, double y) {
   glm::dvec3 v(x, y, 1 - std::abs(x) - std::abs(y));

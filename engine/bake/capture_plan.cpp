@@ -15,7 +15,7 @@ constexpr std::string_view kBakeVersion = "acentric capture 14";
 /// Rows are never wasted on the poles, which local geometry covers.
 constexpr double kSteepest = radians(85);
 /// So that a surface at eye height has a row.
-constexpr double kFlattest = radians(0.5);
+constexpr double kLeastElevation = radians(0.5);
 constexpr int kMaxSide = 65535;
 
 void addTo(Hasher& hasher, const HalfPlane& side) {
@@ -82,13 +82,13 @@ ColumnCamera columnCameraFor(const LayoutCamera& camera, double eyeZ, double nea
                              const Bounds& sceneBounds, const BakeSettings& settings) {
   // What is captured lies beyond the near band, so the scene's top and bottom are seen no steeper than across
   // it, from the lowest eye and the highest.
-  double top = kFlattest, bottom = -kFlattest;
+  double top = kLeastElevation, bottom = -kLeastElevation;
   if (!sceneBounds.empty()) {
     const double across = std::max(nearBand, 0.0);
     const double rise = double(sceneBounds.max.z) - (eyeZ - settings.eyeRange);
     const double fall = double(sceneBounds.min.z) - (eyeZ + settings.eyeRange);
-    top = std::clamp(std::atan2(rise, across), kFlattest, kSteepest);
-    bottom = std::clamp(std::atan2(fall, across), -kSteepest, -kFlattest);
+    top = std::clamp(std::atan2(rise, across), kLeastElevation, kSteepest);
+    bottom = std::clamp(std::atan2(fall, across), -kSteepest, -kLeastElevation);
   }
 
   ColumnCamera columns;

@@ -13,7 +13,7 @@
 namespace acentric {
 namespace {
 
-constexpr std::size_t kBatch = 500;            // looks of one piece of work
+constexpr std::size_t kLooksAtOnce = 500;      // looks of one piece of work
 constexpr double kMissedLimits = 0.05;         // of limits are below the share they are of
 const double kHighestSine = std::sqrt(0.5);    // of a look's elevation
 constexpr double kWhole = 9007199254740992.0;  // 2^53
@@ -81,12 +81,12 @@ RandomLooks::RandomLooks(const RayScene& scene, const ConvexPolygon& polygon, co
 PruningLoss RandomLooks::loss(std::span<const glm::dvec3> testEyes, std::size_t looks, std::uint64_t seed,
                               TaskRunner& runner, RayCounts& rays, std::vector<Lost>* lost,
                               const std::stop_token& stop) const {
-  std::vector<Batch> batches((looks + kBatch - 1) / kBatch);
+  std::vector<Batch> batches((looks + kLooksAtOnce - 1) / kLooksAtOnce);
   runner.parallelFor(batches.size(), [&](std::size_t n) {
     if (stop.stop_requested()) return;
     const FlushDenormals flush;
-    look(testEyes, std::min(kBatch, looks - n * kBatch), Hasher().value(seed).value(n).finish().low,
-         batches[n]);
+    look(testEyes, std::min(kLooksAtOnce, looks - n * kLooksAtOnce),
+         Hasher().value(seed).value(n).finish().low, batches[n]);
   });
   PruningLoss sum;
   for (Batch& batch : batches) {

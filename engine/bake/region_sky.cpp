@@ -11,7 +11,7 @@ namespace acentric {
 namespace {
 
 /// Directions that one task asks about.
-constexpr std::size_t kBatch = 64;
+constexpr std::size_t kDirectionsAtOnce = 64;
 /// Regions that are remembered: those of cameras near by.
 constexpr std::size_t kKept = 64;
 
@@ -51,10 +51,11 @@ std::shared_ptr<const RegionSky> RegionSky::trace(const RayScene& scene,
   while (!border.empty() && !stop.stop_requested()) {
     std::vector<Asked> now;
     now.swap(border);
-    runner.parallelFor((now.size() + kBatch - 1) / kBatch, [&](std::size_t batch) {
+    runner.parallelFor((now.size() + kDirectionsAtOnce - 1) / kDirectionsAtOnce, [&](std::size_t batch) {
       const FlushDenormals flush;
       std::uint64_t count = 0;
-      for (std::size_t i = batch * kBatch; i < std::min(now.size(), (batch + 1) * kBatch); ++i) {
+      for (std::size_t i = batch * kDirectionsAtOnce;
+           i < std::min(now.size(), (batch + 1) * kDirectionsAtOnce); ++i) {
         if (stop.stop_requested()) return;
         const glm::vec3 direction(glm::normalize(lattice.direction(now[i].corner)));
         const auto sees = [&](std::size_t eye) {

@@ -34,8 +34,6 @@ class ViewRays {
   glm::dvec2 centre_;
 };
 
-float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
-
 }  // namespace
 
 TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings,

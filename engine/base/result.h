@@ -38,6 +38,11 @@ inline tl::unexpected<Error> fail(ErrorKind kind, std::string message, std::stri
   return tl::unexpected<Error>(Error{kind, std::move(message), std::move(where)});
 }
 
+/// What is read is damaged, or no such thing at all.
+inline tl::unexpected<Error> malformed(std::string message, std::string where = {}) {
+  return fail(ErrorKind::malformed, std::move(message), std::move(where));
+}
+
 /// A stable word for each kind, for JSON reports.
 const char* nameOf(ErrorKind kind);
 

@@ -6,8 +6,8 @@
 #include <new>
 
 #include "engine/base/file.h"
-#include "engine/export/png.h"
 #include "engine/geometry/conventions.h"
+#include "engine/image/png.h"
 #include "engine/store/keyed.h"
 #include "engine/store/still_picture.h"
 

@@ -15,11 +15,11 @@
 #include "engine/export/export_target.h"
 #include "engine/export/former_bundle.h"
 #include "engine/export/local_file.h"
-#include "engine/export/png.h"
 #include "engine/export/region_order.h"
 #include "engine/image/coarse_capture.h"
 #include "engine/image/keep_samples.h"
 #include "engine/image/plane_numbers.h"
+#include "engine/image/png.h"
 #include "engine/store/still_picture.h"
 
 namespace acentric {

@@ -6,8 +6,8 @@
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
 #include "engine/export/packed_mesh.h"
-#include "engine/export/png.h"
 #include "engine/export/webp.h"
+#include "engine/image/png.h"
 
 namespace acentric {
 namespace {

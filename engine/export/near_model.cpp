@@ -40,10 +40,10 @@ struct Painted {
   ChartPicture picture;
 };
 
-class Writer {
+class NearWriter {
  public:
-  Writer(const WalkScene& walk, std::size_t region, const LocalGeometry& local, int atlasPixels,
-         DrawModel& model)
+  NearWriter(const WalkScene& walk, std::size_t region, const LocalGeometry& local, int atlasPixels,
+             DrawModel& model)
       : walk_(walk),
         local_(local),
         polygon_(walk.layout->regions[region].polygon),
@@ -311,7 +311,7 @@ double eyeDistance(const ConvexPolygon& polygon, double eyeZ, const std::array<g
 
 NearModelCounts addNear(const WalkScene& walk, std::size_t region, const LocalGeometry& local,
                         int atlasPixels, DrawModel& model) {
-  return Writer(walk, region, local, atlasPixels, model).write();
+  return NearWriter(walk, region, local, atlasPixels, model).write();
 }
 
 }  // namespace acentric

@@ -164,9 +164,9 @@ void cut(const PatchPlane& plane, const Rectangle& whole, std::vector<Rectangle>
   }
 }
 
-class Writer {
+class PatchWriter {
  public:
-  Writer(std::span<const ShownCapture> shown, RoleMeshes meshes, int atlasPixels, DrawModel& model)
+  PatchWriter(std::span<const ShownCapture> shown, RoleMeshes meshes, int atlasPixels, DrawModel& model)
       : roleMeshes_(meshes), atlasPixels_(atlasPixels), model_(model) {
     for (const ShownCapture& each : shown) find(each, false);
     for (const ShownCapture& each : shown)
@@ -300,7 +300,7 @@ class Writer {
 
 PatchModelCounts addPatches(std::span<const ShownCapture> shown, RoleMeshes meshes, int atlasPixels,
                             DrawModel& model, const std::stop_token& stop) {
-  return Writer(shown, meshes, atlasPixels, model).write(stop);
+  return PatchWriter(shown, meshes, atlasPixels, model).write(stop);
 }
 
 }  // namespace acentric

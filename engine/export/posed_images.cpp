@@ -9,7 +9,7 @@
 #include "engine/base/contract.h"
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
-#include "engine/export/png.h"
+#include "engine/image/png.h"
 
 namespace acentric {
 namespace {

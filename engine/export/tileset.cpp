@@ -47,9 +47,10 @@ TileBox contentBox(const Bounds& bounds) {
   return boxOf(glm::dvec3(bounds.min) - kRounding, glm::dvec3(bounds.max) + kRounding);
 }
 
-class Writer {
+class TilesetWriter {
  public:
-  Writer(std::vector<RegionTile> tiles, const std::string& generator, Json extras, const fs::path& folder)
+  TilesetWriter(std::vector<RegionTile> tiles, const std::string& generator, Json extras,
+                const fs::path& folder)
       : tiles_(std::move(tiles)), generator_(generator), extras_(std::move(extras)), folder_(folder) {
     Extent all;
     for (const RegionTile& tile : tiles_) all.add(contentBox(tile.bounds));
@@ -163,7 +164,7 @@ TileBox requestBox(const RegionTile& tile) {
 Status writeTileset(std::vector<RegionTile> tiles, const std::string& generator, Json extras,
                     const fs::path& folder) {
   require(!tiles.empty(), "a tileset has a tile");
-  return Writer(std::move(tiles), generator, std::move(extras), folder).write();
+  return TilesetWriter(std::move(tiles), generator, std::move(extras), folder).write();
 }
 
 }  // namespace acentric

@@ -26,38 +26,38 @@ bool isStorable(const HalfColour& colour) {
          colour.a <= kHalfOne;
 }
 
-tl::unexpected<Error> malformed(std::string message) {
-  return fail(ErrorKind::malformed, std::move(message), "capture");
+tl::unexpected<Error> malformedCapture(std::string message) {
+  return malformed(std::move(message), "capture");
 }
 
 /// Sizes of the arrays and column offsets. `noun`: what its samples are.
 Status checkArrays(const CaptureSamples& s, std::size_t columns, bool mirrors, const char* noun) {
   if (s.columnStart.size() != columns + 1)
-    return malformed(
+    return malformedCapture(
         fmt::format("has {} column offsets of {}s, needs {}", s.columnStart.size(), noun, columns + 1));
   if (s.row.size() > kMaxCaptureSamples)
     return fail(ErrorKind::tooLarge, fmt::format("has {} {}s, the limit is 2^31", s.row.size(), noun),
                 "capture");
   if (s.inverseDistance.size() != s.row.size() || s.colour.size() != s.row.size() ||
       s.roles.size() != s.row.size())
-    return malformed(
+    return malformedCapture(
         fmt::format("{}s have {} rows, {} distances, {} colours and {} roles: they must be equally many",
                     noun, s.row.size(), s.inverseDistance.size(), s.colour.size(), s.roles.size()));
   if (s.mirror.size() != (mirrors ? s.row.size() : 0))
-    return malformed(
+    return malformedCapture(
         fmt::format("{}s name {} mirrors, {} are needed", noun, s.mirror.size(), mirrors ? s.row.size() : 0));
   if (s.coverage.size() != s.plane.size() ||
       (s.plane.empty() ? !s.planes.empty() : s.plane.size() != s.row.size()))
-    return malformed(fmt::format("{}s have {} coverages and {} planes of {}: all need them, or none", noun,
-                                 s.coverage.size(), s.plane.size(), s.planes.size()));
+    return malformedCapture(fmt::format("{}s have {} coverages and {} planes of {}: all need them, or none",
+                                        noun, s.coverage.size(), s.plane.size(), s.planes.size()));
   for (std::size_t i = 0; i < s.planes.size(); ++i)
     if (const SurfacePlane& plane = s.planes[i];
         !std::isfinite(plane.normal.x + plane.normal.y + plane.normal.z) || plane.away > 1)
-      return malformed(fmt::format("plane {} of {}s is not one", i, noun));
+      return malformedCapture(fmt::format("plane {} of {}s is not one", i, noun));
   if (s.columnStart.front() != 0 || s.columnStart.back() != s.row.size())
-    return malformed(fmt::format("column offsets do not span the {}s", noun));
+    return malformedCapture(fmt::format("column offsets do not span the {}s", noun));
   if (!std::is_sorted(s.columnStart.begin(), s.columnStart.end()))
-    return malformed(fmt::format("column offsets of {}s do not rise", noun));
+    return malformedCapture(fmt::format("column offsets of {}s do not rise", noun));
   return {};
 }
 
@@ -66,7 +66,7 @@ Status checkSamples(const CaptureSamples& s, const ColumnCamera& camera, bool re
     const std::size_t first = s.columnStart[column];
     for (std::size_t i = first; i < s.columnStart[column + 1]; ++i) {
       const auto bad = [&](const char* what) {
-        return malformed(fmt::format("{} {} (column {}): {}", noun, i, column, what));
+        return malformedCapture(fmt::format("{} {} (column {}): {}", noun, i, column, what));
       };
       if (s.row[i] >= camera.rows) return bad("row lies below the image");
       if (!(s.inverseDistance[i] >= 0) || !std::isfinite(s.inverseDistance[i]))
@@ -94,23 +94,24 @@ Status checkSamples(const CaptureSamples& s, const ColumnCamera& camera, bool re
 Status checkBackground(const CaptureBackground& b, const ColumnCamera& camera) {
   if (b == CaptureBackground{}) return {};
   const auto columns = static_cast<std::size_t>(camera.columns);
-  if (b.runCount() == 0) return malformed("its background has no rows, and yet colours or column offsets");
+  if (b.runCount() == 0)
+    return malformedCapture("its background has no rows, and yet colours or column offsets");
   for (const glm::vec3& radiance : {b.sky.zenith, b.sky.horizon, b.sky.ground})
     for (int i = 0; i < 3; ++i)
       if (!(radiance[i] >= 0) || !std::isfinite(radiance[i]))
-        return malformed("radiance of its background is not a finite number >= 0");
+        return malformedCapture("radiance of its background is not a finite number >= 0");
   if (b.endRow.size() != b.runCount() || b.roles.size() != b.runCount())
-    return malformed(
+    return malformedCapture(
         fmt::format("its background has {} first rows, {} ends and {} roles: they must be equally many",
                     b.runCount(), b.endRow.size(), b.roles.size()));
   if (b.columnStart.size() != columns + 1 || b.columnStart.front() != 0 ||
       b.columnStart.back() != b.runCount() || !std::is_sorted(b.columnStart.begin(), b.columnStart.end()))
-    return malformed("column offsets of its background do not partition the runs of rows");
+    return malformedCapture("column offsets of its background do not partition the runs of rows");
   for (std::size_t column = 0; column < columns; ++column) {
     const std::size_t first = b.columnStart[column];
     for (std::size_t i = first; i < b.columnStart[column + 1]; ++i) {
       const auto bad = [&](const char* what) {
-        return malformed(fmt::format("run {} of its background (column {}): {}", i, column, what));
+        return malformedCapture(fmt::format("run {} of its background (column {}): {}", i, column, what));
       };
       if (b.firstRow[i] >= b.endRow[i] || b.endRow[i] > camera.rows) return bad("no rows of the image");
       if (b.roles[i] == 0) return bad("no role needs it");
@@ -194,16 +195,16 @@ std::size_t Capture::bytes() const {
 Status Capture::check() const {
   if (auto sound = camera.check(); !sound) return sound;
   if (!(distanceStep >= 0) || !std::isfinite(distanceStep))
-    return malformed("the step of its distances is not a finite number >= 0");
+    return malformedCapture("the step of its distances is not a finite number >= 0");
   if (!std::isfinite(planeTolerance) ||
       (planeTolerance > 0) != (hasSilhouettes() || reflections.hasSilhouettes()))
-    return malformed("the tolerance of its planes is not above 0 with silhouettes, and 0 without");
+    return malformedCapture("the tolerance of its planes is not above 0 with silhouettes, and 0 without");
   const auto columns = static_cast<std::size_t>(camera.columns);
   if (auto sound = checkArrays(*this, columns, hasReflections(), "sample"); !sound) return sound;
   if (auto sound = checkSamples(*this, camera, false, "sample"); !sound) return sound;
   if (auto sound = checkBackground(background, camera); !sound) return sound;
   if (reflections == CaptureSamples{}) return {};
-  if (!hasReflections()) return malformed("its list of reflections is there, and empty");
+  if (!hasReflections()) return malformedCapture("its list of reflections is there, and empty");
   if (auto sound = checkArrays(reflections, columns, true, "reflection"); !sound) return sound;
   return checkSamples(reflections, camera, true, "reflection");
 }

@@ -24,6 +24,11 @@ struct DisplayCodes {
 };
 DisplayCodes displayCodes();
 
+/// Of linear Rec.709.
+inline float luminance(const glm::vec3& colour) {
+  return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
 /// Neutral tone curve: identity up to 0.76 after exposure, a smooth shoulder to 1 above, hue kept: highlights
 /// lose colour instead of clipping channel by channel. Returns display-linear values in [0,1]. `exposure` is
 /// a factor. NaN and negative radiance count as 0, infinity as very bright.

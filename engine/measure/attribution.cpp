@@ -7,17 +7,11 @@
 
 #include "engine/base/contract.h"
 #include "engine/image/sharpen.h"
+#include "engine/measure/compare.h"
 #include "engine/measure/surface_steps.h"
 
 namespace acentric {
 namespace {
-
-constexpr double kIdentical = 99;  // dB
-
-double psnrOfSquares(double squares, std::size_t pixels) {
-  if (squares <= 0 || pixels == 0) return kIdentical;
-  return std::min(kIdentical, 10 * std::log10(255.0 * 255.0 * 3 * double(pixels) / squares));
-}
 
 /// Says of each pixel which source it is laid to.
 class Pixels {

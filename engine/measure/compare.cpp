@@ -11,7 +11,6 @@
 namespace acentric {
 namespace {
 
-constexpr double kIdentical = 99;  ///< dB
 constexpr Rgba8 kSheetBackground(24, 24, 24, 255);
 
 template <class A, class B>
@@ -71,9 +70,12 @@ double psnrOf(const ColourImage& a, const ColourImage& b) {
     squares += static_cast<std::uint64_t>(difference.x * difference.x + difference.y * difference.y +
                                           difference.z * difference.z);
   }
-  if (squares == 0) return kIdentical;
-  const double meanSquare = static_cast<double>(squares) / (3.0 * static_cast<double>(a.pixels.size()));
-  return std::min(kIdentical, 10 * std::log10(255.0 * 255.0 / meanSquare));
+  return psnrOfSquares(double(squares), a.pixels.size());
+}
+
+double psnrOfSquares(double squares, std::size_t pixels) {
+  if (squares <= 0 || pixels == 0) return 99;
+  return std::min(99.0, 10 * std::log10(255.0 * 255.0 * 3 * double(pixels) / squares));
 }
 
 ColourImage differenceImage(const ColourImage& a, const ColourImage& b, int gain) {

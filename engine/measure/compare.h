@@ -30,6 +30,9 @@ double depthErrorOf(const Frame& frame, const FloatImage& inverseZDepth, const P
 
 /// Both need pictures of one size. Alpha is not looked at.
 double psnrOf(const ColourImage& a, const ColourImage& b);
+/// `squares`: sum of squared differences of red, green and blue codes over so many pixels. 99 dB if there is
+/// no error.
+double psnrOfSquares(double squares, std::size_t pixels);
 double ssimOf(const ColourImage& a, const ColourImage& b);
 /// Multi-scale structural similarity of luma (Wang, Simoncelli and Bovik 2003, equation 7): five scales, each
 /// half the size of the one before. Where the structure of a scale is opposed it counts as 0.

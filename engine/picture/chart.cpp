@@ -13,8 +13,8 @@ namespace acentric {
 namespace {
 
 constexpr double kWidth = 1000, kHeight = 640, kLeft = 90, kRight = 210, kTop = 116, kBottom = 70;
-constexpr double kTitle = 24, kText = 15, kLineWidth = 2.5, kDot = 4.5;
-constexpr Rgba8 kPaper{255, 255, 255, 255}, kGrid{222, 226, 230, 255};
+constexpr double kChartTitle = 24, kChartText = 15, kLineWidth = 2.5, kDot = 4.5;
+constexpr Rgba8 kChartPaper{255, 255, 255, 255}, kChartGrid{222, 226, 230, 255};
 
 /// Maps decades, whole ones, to [from, to] on the page.
 struct Axis {
@@ -32,26 +32,27 @@ Axis axisFor(double least, double most, double from, double to) {
 
 Status draw(const Chart& chart, const Axis& x, const Axis& y, cairo_surface_t* surface) {
   CairoCanvas canvas(surface, 1);
-  canvas.fillRectangle({0, 0}, {kWidth, kHeight}, kPaper);
-  canvas.text(chart.title, {kLeft, 40}, kTitle, kInkColour, Align::left, true);
-  canvas.text(chart.subtitle, {kLeft, 66}, kText, kFaintColour);
-  canvas.text(chart.note, {kLeft, 88}, kText, kFaintColour);
+  canvas.fillRectangle({0, 0}, {kWidth, kHeight}, kChartPaper);
+  canvas.text(chart.title, {kLeft, 40}, kChartTitle, kInkColour, Align::left, true);
+  canvas.text(chart.subtitle, {kLeft, 66}, kChartText, kFaintColour);
+  canvas.text(chart.note, {kLeft, 88}, kChartText, kFaintColour);
   const auto line = [&](const glm::dvec2& a, const glm::dvec2& b) {
     canvas.path({a, b}, false);
-    canvas.strokePath(kGrid, 1, false);
+    canvas.strokePath(kChartGrid, 1, false);
   };
   for (int power = x.low; power <= x.high; ++power) {
     const double at = x.at(std::pow(10, power));
     line({at, y.from}, {at, y.to});
-    canvas.text(shortNumber(std::pow(10, power)), {at, y.from + 22}, kText, kInkColour, Align::middle);
+    canvas.text(shortNumber(std::pow(10, power)), {at, y.from + 22}, kChartText, kInkColour, Align::middle);
   }
   for (int power = y.low; power <= y.high; ++power) {
     const double at = y.at(std::pow(10, power));
     line({x.from, at}, {x.to, at});
-    canvas.text(shortNumber(std::pow(10, power)), {x.from - 10, at + 5}, kText, kInkColour, Align::right);
+    canvas.text(shortNumber(std::pow(10, power)), {x.from - 10, at + 5}, kChartText, kInkColour,
+                Align::right);
   }
-  canvas.text(chart.across, {0.5 * (x.from + x.to), y.from + 50}, kText, kInkColour, Align::middle);
-  canvas.text(chart.up, {x.from, y.to - 10}, kText, kInkColour);
+  canvas.text(chart.across, {0.5 * (x.from + x.to), y.from + 50}, kChartText, kInkColour, Align::middle);
+  canvas.text(chart.up, {x.from, y.to - 10}, kChartText, kInkColour);
 
   // Names stand at the ends of their lines, the lowest first, none over another; beside the axes, but of
   // lines that end before others.
@@ -74,11 +75,11 @@ Status draw(const Chart& chart, const Axis& x, const Axis& y, cairo_surface_t* s
       canvas.endPath();
     }
     if (chart.lines[i].points.back().x < last) {
-      canvas.text(chart.lines[i].name, points.back() + glm::dvec2(14, 5), kText, kInkColour);
+      canvas.text(chart.lines[i].name, points.back() + glm::dvec2(14, 5), kChartText, kInkColour);
       continue;
     }
-    free = std::min(points.back().y + 5, free - 1.3 * kText);
-    canvas.text(chart.lines[i].name, {x.to + 14, free}, kText, kInkColour);
+    free = std::min(points.back().y + 5, free - 1.3 * kChartText);
+    canvas.text(chart.lines[i].name, {x.to + 14, free}, kChartText, kInkColour);
   }
   return canvas.status();
 }

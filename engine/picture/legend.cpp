@@ -10,14 +10,14 @@
 namespace acentric {
 namespace {
 
-constexpr double kText = 15, kLine = 21, kBarWidth = 26, kBarHeight = 230, kSwatch = 22;
+constexpr double kLegendText = 15, kLegendLine = 21, kBarWidth = 26, kBarHeight = 230, kLegendSwatch = 22;
 
 double drawWrapped(CairoCanvas& canvas, const std::string& text, const glm::dvec2& at, double width,
                    const Rgba8& colour, bool bold = false) {
   double y = at.y;
-  for (const std::string& line : canvas.wrap(text, kText, width, bold)) {
-    canvas.text(line, {at.x, y + kText}, kText, colour, Align::left, bold);
-    y += kLine;
+  for (const std::string& line : canvas.wrap(text, kLegendText, width, bold)) {
+    canvas.text(line, {at.x, y + kLegendText}, kLegendText, colour, Align::left, bold);
+    y += kLegendLine;
   }
   return y - at.y;
 }
@@ -43,17 +43,19 @@ double drawScale(CairoCanvas& canvas, const PlanScale& scale, const glm::dvec2& 
     const double tick = heightOf(value);
     canvas.path({{at.x + kBarWidth, tick}, {at.x + kBarWidth + 6, tick}}, false);
     canvas.strokePath(kFaintColour, 1.2, false);
-    if (limited && std::abs(tick - heightOf(*scale.limit)) < kText) continue;
-    canvas.text(withUnit(value, scale.unit), {at.x + kBarWidth + 11, tick + 0.35 * kText}, kText, kInkColour);
+    if (limited && std::abs(tick - heightOf(*scale.limit)) < kLegendText) continue;
+    canvas.text(withUnit(value, scale.unit), {at.x + kBarWidth + 11, tick + 0.35 * kLegendText}, kLegendText,
+                kInkColour);
   }
   if (limited) {
     const double line = heightOf(*scale.limit);
     canvas.path({{at.x - 5, line}, {at.x + kBarWidth + 8, line}}, false);
     canvas.strokePath(kAlarmColour, 3, false);
     canvas.text(scale.limitLabel + " " + withUnit(*scale.limit, scale.unit),
-                {at.x + kBarWidth + 14, line + 0.35 * kText}, kText, kAlarmColour, Align::left, true);
+                {at.x + kBarWidth + 14, line + 0.35 * kLegendText}, kLegendText, kAlarmColour, Align::left,
+                true);
   }
-  y = bottom + kLine;
+  y = bottom + kLegendLine;
   if (scale.limit && !limited)
     y += drawWrapped(canvas, scale.limitLabel + " " + withUnit(*scale.limit, scale.unit) + " (off the scale)",
                      {at.x, y - 8}, width, kAlarmColour, true);
@@ -61,8 +63,9 @@ double drawScale(CairoCanvas& canvas, const PlanScale& scale, const glm::dvec2& 
 }
 
 void drawSwatch(CairoCanvas& canvas, const LegendEntry& entry, const glm::dvec2& at) {
-  const glm::dvec2 centre = at + glm::dvec2(kSwatch / 2, 0);
-  const glm::dvec2 low = centre - glm::dvec2(kSwatch / 2, 7), high = centre + glm::dvec2(kSwatch / 2, 7);
+  const glm::dvec2 centre = at + glm::dvec2(kLegendSwatch / 2, 0);
+  const glm::dvec2 low = centre - glm::dvec2(kLegendSwatch / 2, 7),
+                   high = centre + glm::dvec2(kLegendSwatch / 2, 7);
   switch (entry.swatch) {
     case LegendSwatch::area:
       canvas.fillRectangle(low, high, entry.colour);
@@ -77,7 +80,7 @@ void drawSwatch(CairoCanvas& canvas, const LegendEntry& entry, const glm::dvec2&
       canvas.strokePath(entry.colour, 2.2, entry.swatch == LegendSwatch::dashedLine);
       return;
     case LegendSwatch::camera:
-      canvas.wedge({low.x + 2, centre.y}, kSwatch - 6, -0.5, 0.5);
+      canvas.wedge({low.x + 2, centre.y}, kLegendSwatch - 6, -0.5, 0.5);
       canvas.fillPath({entry.colour.r, entry.colour.g, entry.colour.b, 110});
       canvas.strokePath(entry.colour, 1.2, false);
       return;
@@ -102,8 +105,10 @@ double drawLegend(CairoCanvas& canvas, const PlanPicture& picture, const glm::dv
   double y = at.y;
   if (picture.scale) y += drawScale(canvas, *picture.scale, at, width) + 12;
   for (const LegendEntry& entry : picture.legend) {
-    drawSwatch(canvas, entry, {at.x, y + 0.65 * kText});
-    y += drawWrapped(canvas, entry.text, {at.x + kSwatch + 12, y}, width - kSwatch - 12, kInkColour) + 6;
+    drawSwatch(canvas, entry, {at.x, y + 0.65 * kLegendText});
+    y += drawWrapped(canvas, entry.text, {at.x + kLegendSwatch + 12, y}, width - kLegendSwatch - 12,
+                     kInkColour) +
+         6;
   }
   if (!picture.notes.empty()) y += 12;
   for (const std::string& note : picture.notes)

@@ -14,8 +14,8 @@ namespace acentric {
 namespace {
 
 /// The page is laid out 1400 units wide and scaled to the picture's width.
-constexpr double kPage = 1400, kMargin = 44, kLegendWidth = 270, kGap = 34, kFooter = 62;
-constexpr double kTitle = 28, kSubtitle = 17, kLabel = 13, kInset = 22;
+constexpr double kPage = 1400, kPageMargin = 44, kLegendWidth = 270, kPageGap = 34, kFooter = 62;
+constexpr double kPageTitle = 28, kSubtitle = 17, kLabel = 13, kInset = 22;
 constexpr int kLargestRaster = 16384;
 
 struct Box {
@@ -58,23 +58,23 @@ Page layOut(const PlanPicture& picture, CairoCanvas& ruler) {
   forEachPoint(picture, [&](const glm::dvec2& p) { page.world.add(p); });
   if (page.world.empty()) page.world = {{-1, -1}, {1, 1}};
   const glm::dvec2 size = glm::max(page.world.max - page.world.min, glm::dvec2(1e-6));
-  page.title = ruler.wrap(picture.title, kTitle, kPage - 2 * kMargin, true);
-  page.subtitle = ruler.wrap(picture.subtitle, kSubtitle, kPage - 2 * kMargin);
-  const double top = kMargin + 1.25 * kTitle * double(page.title.size()) +
+  page.title = ruler.wrap(picture.title, kPageTitle, kPage - 2 * kPageMargin, true);
+  page.subtitle = ruler.wrap(picture.subtitle, kSubtitle, kPage - 2 * kPageMargin);
+  const double top = kPageMargin + 1.25 * kPageTitle * double(page.title.size()) +
                      1.4 * kSubtitle * double(page.subtitle.size()) + 10;
   const bool legend = hasLegend(picture);
-  const double panelWidth = kPage - 2 * kMargin - (legend ? kLegendWidth + kGap : 0);
+  const double panelWidth = kPage - 2 * kPageMargin - (legend ? kLegendWidth + kPageGap : 0);
   double panelHeight = std::clamp((panelWidth - 2 * kInset) * size.y / size.x + 2 * kInset, 320.0, 1250.0);
   if (legend) panelHeight = std::max(panelHeight, drawLegend(ruler, picture, {0, 0}, kLegendWidth));
-  page.panelMin = {kMargin, top};
-  page.panelMax = {kMargin + panelWidth, top + panelHeight};
-  page.legendAt = {page.panelMax.x + kGap, top};
+  page.panelMin = {kPageMargin, top};
+  page.panelMax = {kPageMargin + panelWidth, top + panelHeight};
+  page.legendAt = {page.panelMax.x + kPageGap, top};
   page.unitsPerMetre = std::min((panelWidth - 2 * kInset) / size.x, (panelHeight - 2 * kInset) / size.y);
   page.height = std::ceil(page.panelMax.y + kFooter);
   return page;
 }
 
-double luminance(const Rgba8& c) { return (0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b) / 255; }
+double brightness(const Rgba8& c) { return (0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b) / 255; }
 
 std::optional<Rgba8> fillOf(const PlanPolygon& polygon, const PlanPicture& picture) {
   if (polygon.value && picture.scale) return scaleColour(picture.scale->shareOf(*polygon.value));
@@ -109,7 +109,7 @@ void drawPolygonLabels(CairoCanvas& canvas, const PlanPicture& picture, const Pa
     const glm::dvec2 size = box.max - box.min;
     if (canvas.textWidth(polygon.label, kLabel) > 0.72 * size.x || kLabel > 0.4 * size.y) continue;
     const auto fill = fillOf(polygon, picture);
-    const bool dark = fill && fill->a > 128 && luminance(*fill) < 0.5;
+    const bool dark = fill && fill->a > 128 && brightness(*fill) < 0.5;
     canvas.text(polygon.label, middle + glm::dvec2(0, 0.36 * kLabel), kLabel,
                 dark ? Rgba8{255, 255, 255, 255} : kInkColour, Align::middle);
   }
@@ -180,13 +180,13 @@ void drawScaleBar(CairoCanvas& canvas, const Page& page) {
 
 void drawPage(CairoCanvas& canvas, const PlanPicture& picture, const Page& page) {
   canvas.fillRectangle({0, 0}, {kPage, page.height}, {255, 255, 255, 255});
-  double y = kMargin;
+  double y = kPageMargin;
   for (const std::string& line : page.title) {
-    canvas.text(line, {kMargin, y + 0.8 * kTitle}, kTitle, kInkColour, Align::left, true);
-    y += 1.25 * kTitle;
+    canvas.text(line, {kPageMargin, y + 0.8 * kPageTitle}, kPageTitle, kInkColour, Align::left, true);
+    y += 1.25 * kPageTitle;
   }
   for (const std::string& line : page.subtitle) {
-    canvas.text(line, {kMargin, y + kSubtitle}, kSubtitle, {73, 80, 87, 255});
+    canvas.text(line, {kPageMargin, y + kSubtitle}, kSubtitle, {73, 80, 87, 255});
     y += 1.4 * kSubtitle;
   }
   canvas.fillRectangle(page.panelMin, page.panelMax, {246, 247, 249, 255});

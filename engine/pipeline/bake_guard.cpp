@@ -52,7 +52,7 @@ bool compatible(const std::string& mine, const std::string& theirs) {
   return (mine == "-cameras" && theirs == "-light") || (mine == "-light" && theirs == "-cameras");
 }
 
-std::string wordsFor(const std::string& lock) {
+std::string lockedWords(const std::string& lock) {
   if (lock.empty() || lock == "-cameras") return "is being baked";
   if (lock == "-light") return "has the light on its surfaces baked";
   std::string share = lock.substr(1);
@@ -80,7 +80,7 @@ Result<BakeGuard> BakeGuard::begin(const fs::path& projectFile, const BakeGuardO
   const std::string mine = nameOf(options.part);
   const auto refused = [&](const std::string& lock, const LockOwner& owner) {
     return fail(ErrorKind::unreadable,
-                fmt::format("{} by {}; {}", wordsFor(lock), describe(owner), options.wayOut),
+                fmt::format("{} by {}; {}", lockedWords(lock), describe(owner), options.wayOut),
                 projectFile.string());
   };
   auto state = std::make_unique<State>();

@@ -24,14 +24,14 @@ void dropConsequences(std::vector<std::string>& names) {
 }
 
 std::string wordsFor(const std::string& part) {
-  static const std::map<std::string, std::string, std::less<>> kWords = {
+  static const std::map<std::string, std::string, std::less<>> kPartWords = {
       {"program", "this version bakes otherwise"},  {"scene", "the scene changed"},
       {"geometry", "the scene's geometry changed"}, {"materials", "the scene's materials changed"},
       {"lights", "the scene's lights changed"},     {"effects", "effects were switched"},
       {"settings", "bake settings changed"},        {"place", "it moved"},
       {"regions", "its regions changed"},           {"image", "the part of the view that it covers changed"}};
-  const auto found = kWords.find(part);
-  return found == kWords.end() ? part + " changed" : found->second;
+  const auto found = kPartWords.find(part);
+  return found == kPartWords.end() ? part + " changed" : found->second;
 }
 
 /// What earlier bakes left, asked for once and only if something is missing.

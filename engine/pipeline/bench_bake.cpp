@@ -82,9 +82,10 @@ Result<Layout> ringAt(const OpenProject& open, int cameras) {
   return buildLayout(alone);
 }
 
-class Bench {
+class BakeTimer {
  public:
-  Bench(const OpenProject& open, const BakeBenchOptions& options, const Layout& ring, std::stop_token stop)
+  BakeTimer(const OpenProject& open, const BakeBenchOptions& options, const Layout& ring,
+            std::stop_token stop)
       : open_(open), options_(options), ring_(ring), stop_(std::move(stop)) {}
 
   ColumnCamera columnsOf(const LayoutCamera& camera, const BakeSettings& settings) const {
@@ -224,7 +225,8 @@ class Bench {
   std::stop_token stop_;
 };
 
-Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::filesystem::path& folder) const {
+Status BakeTimer::writeRing(const RayScene& rays, TaskRunner& runner,
+                            const std::filesystem::path& folder) const {
   const auto store = CaptureStore::open(folder);
   if (!store) return tl::unexpected(store.error());
   class Sink final : public CaptureSink {
@@ -251,7 +253,8 @@ Status Bench::writeRing(const RayScene& rays, TaskRunner& runner, const std::fil
   return writer.finish();
 }
 
-Result<BakeForecast> Bench::foretell(BenchLight light, TaskRunner& runner, const Progress& progress) const {
+Result<BakeForecast> BakeTimer::foretell(BenchLight light, TaskRunner& runner,
+                                         const Progress& progress) const {
   OpenProject lit = open_;
   lit.layout = std::make_shared<const Layout>(ring_);
   lit.plan = planWith(open_.plan, light);
@@ -338,7 +341,7 @@ Result<BakeBench> benchBake(const OpenProject& open, const BakeBenchOptions& opt
   if (!ring) return tl::unexpected(ring.error());
   const auto folder = TrialFolder::make(std::filesystem::absolute(open.file).parent_path());
   if (!folder) return tl::unexpected(folder.error());
-  const Bench bench(open, options, *ring, stop);
+  const BakeTimer bench(open, options, *ring, stop);
   BakeBench out;
   out.cameras = int(ring->cameras.size());
   out.side = options.side;

@@ -88,10 +88,10 @@ std::vector<PerspectiveView> viewsToTheLeft(const Region& ring, double eyeZ, dou
 }
 
 /// Scenes to be drawn: layers or one layer, with or without the panorama, with or without the ring.
-class Bench {
+class HolesBench {
  public:
-  Bench(const OpenProject& open, const HoleBenchOptions& options, TaskRunner& runner, Progress progress,
-        std::stop_token stop)
+  HolesBench(const OpenProject& open, const HoleBenchOptions& options, TaskRunner& runner, Progress progress,
+             std::stop_token stop)
       : open_(open),
         options_(options),
         runner_(runner),
@@ -279,7 +279,7 @@ Status HoleBenchOptions::check() const {
 Result<HoleBench> benchHoles(const OpenProject& open, const HoleBenchOptions& options, TaskRunner& runner,
                              const Progress& progress, std::stop_token stop) {
   if (Status sound = options.check(); !sound) return tl::unexpected(sound.error());
-  return Bench(open, options, runner, progress, std::move(stop)).run();
+  return HolesBench(open, options, runner, progress, std::move(stop)).run();
 }
 
 }  // namespace acentric

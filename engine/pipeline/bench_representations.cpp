@@ -32,9 +32,9 @@ struct Truth {
   FloatImage rayDistance;
 };
 
-class Bench {
+class RepresentationsBench {
  public:
-  Bench(const OpenProject& open, const RepresentationBenchOptions& options, Workplace at)
+  RepresentationsBench(const OpenProject& open, const RepresentationBenchOptions& options, Workplace at)
       : open_(open), options_(options), at_(std::move(at)) {}
 
   Result<RepresentationBench> run(std::vector<ViewSet> sets) {
@@ -249,7 +249,8 @@ Result<RepresentationBench> benchRepresentations(const OpenProject& open, const 
     for (const PerspectiveView& view : path.views)
       if (area.contains(glm::dvec2(view.eye))) set.views.push_back(view);
   }
-  return Bench(open, options, {open, folder, runner, progress, std::move(stop)}).run(std::move(sets));
+  return RepresentationsBench(open, options, {open, folder, runner, progress, std::move(stop)})
+      .run(std::move(sets));
 }
 
 }  // namespace acentric

@@ -15,17 +15,17 @@
 namespace acentric {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-const glm::dvec3 kFarAway(5e6, 4.9e6, 0);  ///< metres, as map coordinates are
-constexpr double kAbove = 0.1;             ///< metres
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+const glm::dvec3 kFarOut(5e6, 4.9e6, 0);  ///< metres, as map coordinates are
+constexpr double kAbove = 0.1;            ///< metres
 
-struct Way {
+struct WarpWay {
   const char* name;
   Renderer renderer;
 };
-constexpr Way kWays[] = {{"double, one sample at a time", Renderer::precise},
-                         {"float, one sample at a time", Renderer::scalar},
-                         {"float, vectors", Renderer::list}};
+constexpr WarpWay kWays[] = {{"double, one sample at a time", Renderer::precise},
+                             {"float, one sample at a time", Renderer::scalar},
+                             {"float, vectors", Renderer::list}};
 
 /// A place as floats would hold it. Through volatile ones: g++ 12 at -O2 takes a vector's conversion to
 /// floats and back for none.
@@ -116,14 +116,14 @@ class WarpBench {
     }
     NumericsRow row(const std::string& cases, bool hard, const std::string& way, bool reference) {
       const auto median = [](const std::vector<double>& values) {
-        return values.empty() ? kNone : spreadOf(values).median;
+        return values.empty() ? kNoFigure : spreadOf(values).median;
       };
       const double worst = spreadOf(differing).max;
       return {cases,
               hard,
               way,
-              {reference ? kNone : median(differing), reference ? kNone : worst,
-               reference ? kNone : median(toDouble), median(toTruth), median(milliseconds)}};
+              {reference ? kNoFigure : median(differing), reference ? kNoFigure : worst,
+               reference ? kNoFigure : median(toDouble), median(toTruth), median(milliseconds)}};
     }
   };
 
@@ -196,7 +196,7 @@ class WarpBench {
   /// The project as it would be with its origin there, against the same near zero.
   Status measureFarAway(const std::vector<PerspectiveView>& views) {
     LayoutSpec spec = open_.layout->spec;
-    const glm::dvec2 away(kFarAway);
+    const glm::dvec2 away(kFarOut);
     spec.latticeOrigin += away;
     for (auto& loop : spec.outline.loops)
       for (glm::dvec2& corner : loop) corner += away;
@@ -217,7 +217,7 @@ class WarpBench {
       const ColourImage reference = precise->colour;
       settings.renderer = Renderer::list;
       PerspectiveView there = view;
-      there.eye += kFarAway;
+      there.eye += kFarOut;
       const WalkScene scene = movedScene((*walk)->walk, moved, view);
       auto frame = render(scene, there, settings, far);
       if (!frame) return tl::unexpected(frame.error());
@@ -253,10 +253,10 @@ class WarpBench {
       const auto& original = walk.captures[std::size_t(c)];
       if (!original) continue;
       auto copy = std::make_shared<DisplayCapture>(*original);
-      copy->camera.centreOfProjection += kFarAway;
+      copy->camera.centreOfProjection += kFarOut;
       if (original->reflections) {
         auto reflections = std::make_shared<DisplayCapture>(*original->reflections);
-        reflections->camera.centreOfProjection += kFarAway;
+        reflections->camera.centreOfProjection += kFarOut;
         copy->reflections = std::move(reflections);
       }
       moved.captures[std::size_t(c)] = std::move(copy);

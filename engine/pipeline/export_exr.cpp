@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 /// One camera's file, as the index tells of it.
-struct Written {
+struct WrittenExr {
   std::string file;
   ColumnCamera camera;
   std::size_t samples = 0, reflections = 0;
@@ -27,11 +27,11 @@ struct Written {
   std::uint64_t bytes = 0;
 };
 
-struct Place {
+struct ExrPlace {
   std::size_t storey, camera;
 };
 
-Json toJson(const Written& written) {
+Json toJson(const WrittenExr& written) {
   const ColumnCamera& camera = written.camera;
   const glm::dvec3& centre = camera.centreOfProjection;
   return {{"file", written.file},
@@ -46,10 +46,10 @@ Json toJson(const Written& written) {
           {"reflections", written.reflections}};
 }
 
-class Writer {
+class ExrWriter {
  public:
-  Writer(std::span<const OpenProject> storeys, const CaptureStore& store, const ExportExrOptions& options,
-         fs::path folder, TaskRunner& runner, const Progress& progress, const std::stop_token& stop)
+  ExrWriter(std::span<const OpenProject> storeys, const CaptureStore& store, const ExportExrOptions& options,
+            fs::path folder, TaskRunner& runner, const Progress& progress, const std::stop_token& stop)
       : storeys_(storeys),
         store_(store),
         options_(options),
@@ -92,7 +92,7 @@ class Writer {
     });
     for (const Status& status : done)
       if (!status) return tl::unexpected(status.error());
-    for (const Written& written : written_) {
+    for (const WrittenExr& written : written_) {
       ++report_.files;
       report_.samples += written.samples + written.reflections, report_.bytes += written.bytes;
     }
@@ -107,7 +107,7 @@ class Writer {
     const ContentKey& key = storeys_[storey].keys[camera];
     const auto capture = store_.get(key);
     if (!capture) return tl::unexpected(capture.error());
-    Written& written = written_[n];
+    WrittenExr& written = written_[n];
     written = {fmt::format("captures/{}-{:05}.exr", storey, camera),
                capture->camera,
                capture->sampleCount(),
@@ -141,8 +141,8 @@ class Writer {
   TaskRunner& runner_;
   const Progress& progress_;
   const std::stop_token& stop_;
-  std::vector<Place> places_;  ///< that are baked
-  std::vector<Written> written_;
+  std::vector<ExrPlace> places_;  ///< that are baked
+  std::vector<WrittenExr> written_;
   ExportExrReport report_;
 };
 
@@ -160,7 +160,7 @@ Result<ExportExrReport> exportExr(std::span<const OpenProject> storeys, const fs
   const auto store = openCaptures(storeys.front().file);
   if (!store) return tl::unexpected(store.error());
   return writeFolderAtomically(folder, [&](const fs::path& temporary) -> Result<ExportExrReport> {
-    Writer writer(storeys, *store, options, temporary, runner, progress, stop);
+    ExrWriter writer(storeys, *store, options, temporary, runner, progress, stop);
     if (Status whole = writer.refuseMissing(); !whole) return tl::unexpected(whole.error());
     return writer.write();
   });

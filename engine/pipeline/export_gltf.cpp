@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-class Writer {
+class GltfWriter {
  public:
-  Writer(std::span<const OpenProject> storeys, const ExportGltfOptions& options, fs::path folder,
-         TaskRunner& runner, const Progress& progress, const std::stop_token& stop)
+  GltfWriter(std::span<const OpenProject> storeys, const ExportGltfOptions& options, fs::path folder,
+             TaskRunner& runner, const Progress& progress, const std::stop_token& stop)
       : storeys_(storeys),
         options_(options),
         folder_(std::move(folder)),
@@ -169,7 +169,7 @@ Result<ExportGltfReport> exportGltf(std::span<const OpenProject> storeys, const 
   return writeFolderAtomically(folder, [&](const fs::path& temporary) {
     std::error_code error;
     fs::create_directories(temporary / "regions", error);
-    return Writer(storeys, options, temporary, runner, progress, stop).write();
+    return GltfWriter(storeys, options, temporary, runner, progress, stop).write();
   });
 }
 

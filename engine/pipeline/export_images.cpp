@@ -37,10 +37,10 @@ FloatImage alongAxis(const FloatImage& rayDistance, const PerspectiveView& view)
   return out;
 }
 
-class Writer {
+class ImagesWriter {
  public:
-  Writer(const OpenProject& open, const ExportImagesOptions& options, fs::path folder, TaskRunner& runner,
-         const Progress& progress, const std::stop_token& stop)
+  ImagesWriter(const OpenProject& open, const ExportImagesOptions& options, fs::path folder,
+               TaskRunner& runner, const Progress& progress, const std::stop_token& stop)
       : open_(open),
         options_(options),
         folder_(std::move(folder)),
@@ -168,7 +168,7 @@ Result<ExportImagesReport> exportImages(const OpenProject& open, const fs::path&
   if (fs::exists(folder, error) && !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
     return fail(ErrorKind::invalidArgument, "is there already: name a new folder", folder.string());
   return writeFolderAtomically(folder, [&](const fs::path& temporary) {
-    return Writer(open, options, temporary, runner, progress, stop).write();
+    return ImagesWriter(open, options, temporary, runner, progress, stop).write();
   });
 }
 

@@ -12,7 +12,7 @@ namespace acentric {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostBytes = std::size_t(256) << 20;
 

@@ -19,13 +19,13 @@ namespace acentric {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostBytes = 64 << 10;
+constexpr std::size_t kMostLockBytes = 64 << 10;
 
 /// Field 22 of /proc/N/stat: ticks from the machine's start to the process's. Empty where there is none.
 std::string startOf(long process) {
-  const auto text = readText(fmt::format("/proc/{}/stat", process), kMostBytes);
+  const auto text = readText(fmt::format("/proc/{}/stat", process), kMostLockBytes);
   if (!text) return {};
   std::size_t at = text->rfind(')');  // the name in parentheses may hold anything
   for (int field = 2; at != std::string::npos && field < 22; ++field) at = text->find(' ', at + 1);
@@ -79,7 +79,7 @@ fs::path lockFileFor(const fs::path& projectFile) {
 
 Result<LockOwner> readLock(const fs::path& projectFile) {
   const fs::path file = lockFileFor(projectFile);
-  const auto text = readText(file, kMostBytes);
+  const auto text = readText(file, kMostLockBytes);
   if (!text) return tl::unexpected(text.error());
   const Json json = parseJson<Json>(*text).value_or(Json());
   try {

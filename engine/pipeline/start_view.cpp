@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFarthest = 40, kTooNear = 1.5;  // metres
 constexpr double kRoom = 0.8;                     // metres around a person
-constexpr int kDirections = 24;
+constexpr int kYaws = 24;
 constexpr std::size_t kMostPlaces = 60;
 
 double roundTo(double value, double step) { return std::round(value / step) * step; }
@@ -95,8 +95,8 @@ Spawn chooseStart(const Layout& layout, const RayScene& rays) {
   for (const glm::dvec2& place : placesToStand(layout, rays)) {
     const glm::dvec2 tidied{roundTo(place.x, 0.01), roundTo(place.y, 0.01)};
     const glm::dvec2 stand = layout.regionAt(tidied) ? tidied : place;
-    for (int k = 0; k < kDirections; ++k) {
-      const double yaw = kTwoPi * k / kDirections;
+    for (int k = 0; k < kYaws; ++k) {
+      const double yaw = kTwoPi * k / kYaws;
       const double score = worthOf(rays, {stand, layout.eyeZ()}, yaw).score();
       if (score > most) most = score, best = {stand, yaw};
     }

@@ -1,25 +1,24 @@
 #include "engine/scene/emitters.h"
 
 #include <algorithm>
-#include <numbers>
+#include <glm/gtc/constants.hpp>
 
+#include "engine/image/colour.h"
 #include "engine/scene/mesh_attributes.h"
 #include "engine/scene/texture_lookup.h"
 
 namespace acentric {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kLeastShare = 0.01f;
 /// Places within a triangle per edge at which its texture is read.
 constexpr int kTextureGrid = 6;
 
-float luminance(const glm::vec3& colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
-
 /// On a surface that faces everything at once, nothing in between, a quarter of the scene's size from lamps.
 float typicalIrradiance(const Scene& scene, float size) {
   const float lampDistance = 0.25f * size;
-  float sum = kPi * luminance(scene.sky.zenith + 2.0f * scene.sky.horizon + scene.sky.ground) / 4;
+  float sum =
+      glm::pi<float>() * luminance(scene.sky.zenith + 2.0f * scene.sky.horizon + scene.sky.ground) / 4;
   for (const Light& light : scene.lights) {
     const float strength = luminance(light.colour) * light.intensity;
     sum += light.kind == LightKind::directional ? strength
@@ -39,8 +38,8 @@ float irradianceFromMesh(const Scene& scene, const Mesh& mesh, float distance) {
     area += part;
     strength += part * double(luminance(meanEmission(scene, mesh, t)));
   }
-  const double reach = area + double(kPi * distance * distance);
-  return reach > 0 ? float(double(kPi) * strength / reach) : 0;
+  const double reach = area + double(glm::pi<float>() * distance * distance);
+  return reach > 0 ? float(double(glm::pi<float>()) * strength / reach) : 0;
 }
 
 }  // namespace

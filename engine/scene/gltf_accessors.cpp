@@ -23,10 +23,6 @@ struct Rows {
   bool normalized = false;
 };
 
-tl::unexpected<Error> malformed(std::string message) {
-  return fail(ErrorKind::malformed, std::move(message));
-}
-
 Result<Rows> rowsAt(const tinygltf::Model& model, int bufferView, std::size_t byteOffset, std::size_t stride,
                     Rows rows, const std::string& what) {
   const int componentSize = tinygltf::GetComponentSizeInBytes(std::uint32_t(rows.componentType));

@@ -17,10 +17,6 @@ using Json = nlohmann::json;
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-tl::unexpected<Error> malformed(std::string message) {
-  return fail(ErrorKind::malformed, std::move(message));
-}
-
 /// The object `name` of `node`'s extensions; null where there is none.
 const Json* extensionOf(const Json& node, const char* name) {
   if (!node.is_object()) return nullptr;

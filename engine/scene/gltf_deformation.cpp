@@ -13,10 +13,6 @@
 namespace acentric {
 namespace {
 
-tl::unexpected<Error> malformed(std::string message) {
-  return fail(ErrorKind::malformed, std::move(message));
-}
-
 /// Rows of `components` for each of the mesh's positions.
 Result<GltfNumbers> rowsFor(const tinygltf::Model& model, int accessor, std::size_t count, int components,
                             const std::string& what) {

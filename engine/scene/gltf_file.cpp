@@ -19,10 +19,6 @@
 namespace acentric {
 namespace {
 
-tl::unexpected<Error> malformed(std::string message) {
-  return fail(ErrorKind::malformed, std::move(message));
-}
-
 std::string oneLine(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');

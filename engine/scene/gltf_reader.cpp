@@ -19,10 +19,6 @@
 namespace acentric {
 namespace {
 
-tl::unexpected<Error> malformed(std::string message) {
-  return fail(ErrorKind::malformed, std::move(message));
-}
-
 class GltfReader {
  public:
   GltfReader(const tinygltf::Model& model, const ReadContext& context, SourceScene scene)

@@ -3,6 +3,7 @@
 
 #include <OpenEXR/ImfHeader.h>
 
+#include <array>
 #include <vector>
 
 #include "engine/base/hash.h"
@@ -14,6 +15,7 @@ inline constexpr int kCaptureExrVersion = 4;
 /// Value of channel W where a flat file's pixel has no sample.
 inline constexpr float kNoDistance = -1.0f;
 
+inline constexpr std::array kColourChannels = {"R", "G", "B", "A"};
 /// Who needs a sample: bit r for role r.
 inline constexpr char kRolesChannel[] = "roles";
 /// Which mirror a surface belongs to, or shows what a reflection is of. Only in files with reflections.
@@ -34,6 +36,12 @@ inline constexpr char kAttributeStep[] = "acentricDistanceStep";
 inline constexpr char kAttributeZenith[] = "acentricSkyZenith";
 inline constexpr char kAttributeHorizon[] = "acentricSkyHorizon";
 inline constexpr char kAttributeGround[] = "acentricSkyGround";
+
+/// As slices of frame buffers are told where values are.
+template <class T>
+char* slicePointer(T& value) {
+  return reinterpret_cast<char*>(&value);
+}
 
 /// OpenEXR's convention is premultiplied colour, ours is straight. Exact for alpha 1; else each direction
 /// rounds to the nearest half, and the colour under alpha 0 is lost.

@@ -25,7 +25,6 @@
 namespace acentric {
 namespace {
 
-constexpr std::array kColourChannels = {"R", "G", "B", "A"};
 /// Deflate packs no more than this into a byte: a picture of more cannot be in the file.
 constexpr std::uint64_t kMaxDeflateRatio = 1032;
 
@@ -88,11 +87,6 @@ Sky skyOf(const Imf::Header& header) {
     return glm::vec3(c.x, c.y, c.z);
   };
   return {radiance(kAttributeZenith), radiance(kAttributeHorizon), radiance(kAttributeGround)};
-}
-
-template <class T>
-char* slicePointer(T& value) {
-  return reinterpret_cast<char*>(&value);
 }
 
 std::uint8_t rolesOf(std::uint32_t stored) {

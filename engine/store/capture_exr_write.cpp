@@ -29,7 +29,6 @@ namespace acentric {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::array kColourChannels = {"R", "G", "B", "A"};
 /// zlib's fast end: about three times the speed of its default for a tenth more bytes.
 constexpr int kZipLevel = 2;
 
@@ -101,11 +100,6 @@ float rayDistance(double rayPerHorizontal, float inverseDistance) {
 
 double rayPerHorizontal(const ColumnCamera& camera, std::size_t row) {
   return std::hypot(1.0, camera.tangentAt(static_cast<double>(row) + 0.5));
-}
-
-template <class T>
-char* slicePointer(T& value) {
-  return reinterpret_cast<char*>(&value);
 }
 
 /// Thrown out of the loops over lines.

@@ -275,8 +275,6 @@ class AttributeWalk {
   std::vector<std::uint32_t> now_, before_;  ///< where pixels begin
 };
 
-tl::unexpected<Error> malformed(const char* message) { return fail(ErrorKind::malformed, message); }
-
 }  // namespace
 
 double codedStep(const CaptureSamples& samples, double distanceStep) {

@@ -55,7 +55,6 @@ void copyRow(const From* from, To* to, std::size_t count, int bits) {
     std::copy_n(from, count, to);
 }
 
-tl::unexpected<Error> malformed(const char* message) { return fail(ErrorKind::malformed, message); }
 tl::unexpected<Error> noMemory() { return fail(ErrorKind::outOfSpace, "not enough memory"); }
 
 /// With room for its planes; null without memory for it.

@@ -16,7 +16,7 @@ namespace acentric {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMaxSamples = std::uint64_t(1) << 31;
+constexpr std::uint64_t kMostPartSamples = std::uint64_t(1) << 31;
 
 template <class AnyPart>
 auto runLanes(AnyPart& part) {
@@ -56,7 +56,7 @@ Result<Keyed<SurfaceLightPart>> readPart(const fs::path& path) {
   const auto runs = file->described<std::uint64_t>();
   const auto samples = file->described<std::uint64_t>();
   if (!file->describedAll()) return file->malformed("its description makes no sense");
-  if (runs > kMaxSamples || samples > kMaxSamples || file->rawBytes() != 8 * runs + 8 * samples)
+  if (runs > kMostPartSamples || samples > kMostPartSamples || file->rawBytes() != 8 * runs + 8 * samples)
     return file->malformed("its number of samples contradicts its size");
   SurfaceLightPart part;
   part.runs.resize(runs);

@@ -9,6 +9,7 @@
 #include "engine/bake/direct_light.h"
 #include "engine/bake/shading.h"
 #include "engine/bake/spherical_triangle.h"
+#include "engine/geometry/conventions.h"
 #include "scene_builder.h"
 
 namespace acentric {
@@ -16,8 +17,6 @@ namespace {
 
 using test::matte;
 using test::SceneBuilder;
-
-constexpr double kPi = std::numbers::pi;
 
 Material glowing(float radiance, glm::vec3 colour = glm::vec3(1)) {
   Material m = matte(glm::vec3(0));

@@ -40,7 +40,7 @@ SceneBuilder facetBeforeWall() {
   return builder;
 }
 
-BakeSettings coarse() {
+BakeSettings coarseFacets() {
   BakeSettings settings;
   settings.samplesPerDegree = 3;
   return settings;
@@ -96,7 +96,7 @@ Seen facetSeenBy(const ColumnCamera& camera, const CaptureSamples& list, const g
 }
 
 TEST(EdgeOnFacets, AreSeenAsWideAsTheyAreByEyesToTheSide) {
-  const Baked baked = bakeAsSet(facetBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), coarse());
+  const Baked baked = bakeAsSet(facetBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), coarseFacets());
   const Seen seen = facetSeenBy(baked.columns, baked.capture, kEye, [](const glm::dvec3& p) { return p; });
   EXPECT_GE(seen.shown, 0.95 * seen.of);
   EXPECT_LT(seen.off, 0.06) << "the facet is 0.3 m deep";
@@ -108,7 +108,7 @@ TEST(EdgeOnFacets, AreSeenAsWideAsTheyAreByEyesToTheSide) {
 }
 
 TEST(EdgeOnFacets, CoverAFewPartsOfTheirPixelsAndEachOnce) {
-  const Baked baked = bakeAsSet(facetBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), coarse());
+  const Baked baked = bakeAsSet(facetBeforeWall().rays(), cameraAt({0, 0}, {square(0.5)}), coarseFacets());
   const Capture& capture = baked.capture;
   const PixelSamples pixels(capture, baked.columns.rows, 0, baked.columns.columns);
   int parts = 0, twice = 0, rows = 0;
@@ -133,7 +133,7 @@ TEST(EdgeOnFacets, CoverAFewPartsOfTheirPixelsAndEachOnce) {
 TEST(EdgeOnFacets, MayBeAllThatACaptureHolds) {
   SceneBuilder builder;
   builder.quad(builder.material(unlit(kRed)), {kFar, 1.2f}, {kNear, 1.2f}, {kNear, 2.1f}, {kFar, 2.1f});
-  BakeSettings settings = coarse();
+  BakeSettings settings = coarseFacets();
   settings.samplesPerDegree = 2;
   const Baked baked = bakeAsSet(builder.rays(), cameraAt({0, 0}, {square(0.5)}), settings);
   EXPECT_GT(baked.capture.sampleCount(), 0u);
@@ -143,14 +143,15 @@ TEST(EdgeOnFacets, MayBeAllThatACaptureHolds) {
 TEST(EdgeOnFacets, ThatNoEyeSeesHaveNoSamples) {
   SceneBuilder builder = facetBeforeWall();
   builder.box(0, {2, -10, -10}, {2.1f, 10, 10});
-  const Baked baked = bakeAsSet(builder.rays(), cameraAt({0, 0}, {square(0.5)}), coarse());
+  const Baked baked = bakeAsSet(builder.rays(), cameraAt({0, 0}, {square(0.5)}), coarseFacets());
   for (std::uint32_t i = 0; i < baked.capture.sampleCount(); ++i) ASSERT_FALSE(isRed(baked.capture, i));
 }
 
 TEST(EdgeOnFacets, AreTheSameForAnyNumberOfThreads) {
   const auto scene = facetBeforeWall().rays();
   const LayoutCamera camera = cameraAt({0, 0}, {square(0.5)});
-  EXPECT_EQ(bakeAsSet(scene, camera, coarse(), 0).capture, bakeAsSet(scene, camera, coarse(), 3).capture);
+  EXPECT_EQ(bakeAsSet(scene, camera, coarseFacets(), 0).capture,
+            bakeAsSet(scene, camera, coarseFacets(), 3).capture);
 }
 
 /// The same facet mirrored at the plane x = 6, where a mirror shows it.
@@ -167,7 +168,7 @@ TEST(EdgeOnFacets, AreTurnedInMirrorsToo) {
   const float low = 1.0f, high = 2.3f;
   const glm::vec2 near = behind(kNear), far = behind(kFar);
   builder.quad(builder.material(unlit(kRed)), {near, low}, {far, low}, {far, high}, {near, high});
-  BakeSettings settings = coarse();
+  BakeSettings settings = coarseFacets();
   settings.samplesPerDegree = 6;
   const Baked baked = bakeAsSet(builder.rays(), cameraAt({0, 0}, {square(0.5)}), settings);
   int red = 0;

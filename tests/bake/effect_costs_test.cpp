@@ -21,7 +21,7 @@ Layout layoutOverRoom() {
   return buildLayout(spec).value();
 }
 
-BakeSettings coarse() {
+BakeSettings coarseEffects() {
   BakeSettings settings;
   settings.samplesPerDegree = 4;
   settings.surfaceTexel = 0.1;
@@ -35,7 +35,7 @@ TEST(EffectCosts, AreSharesOfWhatIsOnAndNothingOfWhatIsOff) {
       .size(0.1f)
       .sky(glm::vec3(1));
   const auto scene = builder.rays();
-  BakeSettings settings = coarse();
+  BakeSettings settings = coarseEffects();
   settings.shadowRays = 64;
   const EffectCosts costs = measureEffectCosts(*scene, layoutOverRoom(), settings);
   EXPECT_GT(costs.pixels, 1000);
@@ -54,15 +54,15 @@ TEST(EffectCosts, LeaveNoGatheredLightBehindAndStopWhenAsked) {
   SceneBuilder builder;
   builder.box(builder.material(matte()), {-4, -4, 0}, {4, 4, 3}, true).sky(glm::vec3(1));
   const auto scene = builder.rays();
-  const auto before = scene->gatheredLight(coarse());
-  EXPECT_GT(measureEffectCosts(*scene, layoutOverRoom(), coarse()).pixels, 0);
+  const auto before = scene->gatheredLight(coarseEffects());
+  EXPECT_GT(measureEffectCosts(*scene, layoutOverRoom(), coarseEffects()).pixels, 0);
   const Hit hit = scene->trace({{0, 0, 1}, {0, 0, -1}});
   RayCounts rays;
   before->at(hit, false, rays);
   EXPECT_GT(rays.ambient, 0u) << "not gathered before";
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(measureEffectCosts(*scene, layoutOverRoom(), coarse(), stop.get_token()).pixels, 0);
+  EXPECT_EQ(measureEffectCosts(*scene, layoutOverRoom(), coarseEffects(), stop.get_token()).pixels, 0);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ using test::matte;
 using test::SceneBuilder;
 using test::square;
 
-Capture bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, double eyeZ, double nearBand) {
+Capture bakeCase(const RayScenePtr& scene, const LayoutCamera& camera, double eyeZ, double nearBand) {
   BakeSettings settings;
   settings.eyeRange = 0;  // heights are chosen by place, and would differ from scale to scale
   settings.samplesPerDegree = 1;
@@ -46,7 +46,7 @@ TEST(HardCases, AWallThroughTheCentreOfProjectionLeavesNoNoiseInTheCaptureAtAnyS
     builder.quad(white, {centre - along, 0}, {centre + along, 0}, {centre + along, 3 * scale},
                  {centre - along, 3 * scale});
     const RayScenePtr scene = builder.rays();
-    const Capture capture = bakeFrom(scene, camera, eyeZ, 0);
+    const Capture capture = bakeCase(scene, camera, eyeZ, 0);
     ASSERT_TRUE(capture.check().has_value());
     for (const float w : capture.inverseDistance)
       EXPECT_LE(double(w) * scale, 10) << "the room, its ceiling under 85 degrees";
@@ -94,7 +94,7 @@ TEST(HardCases, ASurfaceGivenTwiceIsKeptOnceAndNotOncePerTriangle) {
     for (int n = 0; n < walls; ++n) builder.quad(white, {3, 2, 0}, {3, -2, 0}, {3, -2, 3}, {3, 2, 3});
     builder.box(white, {-6, -5, 0}, {6, 5, 3}, true);
     const RayScenePtr rays = builder.rays();
-    Made made{bakeFrom(rays, cameraAt({0, 0}, {square(1), square(2)}), 1.6, 1)};
+    Made made{bakeCase(rays, cameraAt({0, 0}, {square(1), square(2)}), 1.6, 1)};
     const ColumnCamera& camera = made.capture.camera;
     for (int k = 0; k < camera.columns; ++k)
       for (int r = 0; r < camera.rows; ++r)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "baked_camera.h"
 #include "engine/bake/bake.h"
 #include "engine/bake/eye_views.h"
 #include "engine/bake/shading.h"
@@ -16,11 +17,10 @@ namespace {
 
 using test::cameraAt;
 using test::glowing;
+using test::kEyeZ;
 using test::SceneBuilder;
 using test::silver;
 using test::square;
-
-constexpr double kEyeZ = 1.6;
 
 /// A room with walls of six colours and a mirror before the wall at x = 6, looked at from the middle.
 struct MirrorRoom {
@@ -56,20 +56,20 @@ struct MirrorRoom {
   }
 };
 
-struct Baked {
+struct BakedMirrors {
   Capture capture;
   CaptureCounts counts;
 };
 
-Baked bakeFrom(const RayScenePtr& scene, const LayoutCamera& camera, bool pruning = false,
-               bool silhouettes = false) {
+BakedMirrors bakeMirrors(const RayScenePtr& scene, const LayoutCamera& camera, bool pruning = false,
+                         bool silhouettes = false) {
   BakeSettings settings;
   settings.samplesPerDegree = 2;
   settings.pruning = pruning;
   settings.silhouettes = silhouettes;
   const ColumnCamera columns = columnCameraFor(camera, kEyeZ, 1, scene->scene().bounds, settings);
   TaskRunner runner(0);
-  Baked baked;
+  BakedMirrors baked;
   auto capture = CameraBaker(*scene, settings).bake(camera, columns, runner, baked.counts);
   EXPECT_TRUE(capture.has_value());
   if (!capture) return baked;
@@ -93,7 +93,7 @@ double roundingAt(const Capture& capture, float inverseDistance) {
 
 TEST(BakeMirrors, KeepWhatTheyShowAtItsMirrorImage) {
   const MirrorRoom room;
-  const Baked baked = bakeFrom(room.builder.rays(), cameraAt({0.5, 0.2}, {square(1)}));
+  const BakedMirrors baked = bakeMirrors(room.builder.rays(), cameraAt({0.5, 0.2}, {square(1)}));
   const Capture& capture = baked.capture;
   const CaptureSamples& shown = capture.reflections;
   std::set<std::pair<std::size_t, int>> mirrorPixels, shownPixels;
@@ -133,8 +133,8 @@ TEST(BakeMirrors, KeepWhatTheyShowAtItsMirrorImage) {
 TEST(BakeMirrors, LeaveTheSurfacesAsTheyAreWithoutThem) {
   const MirrorRoom room;
   const auto camera = cameraAt({0.5, 0.2}, {square(1)});
-  const Baked with = bakeFrom(room.builder.rays(), camera),
-              without = bakeFrom(room.builder.rays({Effect::mirrorReflection}), camera);
+  const BakedMirrors with = bakeMirrors(room.builder.rays(), camera),
+                     without = bakeMirrors(room.builder.rays({Effect::mirrorReflection}), camera);
   EXPECT_FALSE(without.capture.hasReflections());
   EXPECT_TRUE(without.capture.mirror.empty());
   EXPECT_EQ(without.counts.rays.mirror, 0u);
@@ -150,7 +150,7 @@ TEST(BakeMirrors, LeaveTheSurfacesAsTheyAreWithoutThem) {
   // A camera that sees no mirror has no list.
   auto away = camera;
   away.lowAzimuth += kPi;
-  const Baked unseen = bakeFrom(room.builder.rays(), away);
+  const BakedMirrors unseen = bakeMirrors(room.builder.rays(), away);
   EXPECT_FALSE(unseen.capture.hasReflections());
   EXPECT_TRUE(unseen.capture.mirror.empty());
 }
@@ -159,7 +159,7 @@ TEST(BakeMirrors, LeaveTheSurfacesAsTheyAreWithoutThem) {
 TEST(BakeMirrors, ColourTheMirrorAsEverySurfaceIsShaded) {
   const MirrorRoom room;
   const auto scene = room.builder.rays();
-  const Baked baked = bakeFrom(scene, cameraAt({0.5, 0.2}, {square(1)}));
+  const BakedMirrors baked = bakeMirrors(scene, cameraAt({0.5, 0.2}, {square(1)}));
   const Shader shader(*scene, {});
   RayCounts rays;
   const Capture& capture = baked.capture;
@@ -185,7 +185,7 @@ TEST(BakeMirrors, ServeTheRolesWhosePartHoldsTheVirtualPlace) {
   camera.roles[0].clip = Clip{{line, true}};
   camera.roles[1].clip = Clip{{line, false}};
   for (const bool pruning : {false, true}) {
-    const Baked baked = bakeFrom(room.builder.rays(), camera, pruning);
+    const BakedMirrors baked = bakeMirrors(room.builder.rays(), camera, pruning);
     const CaptureSamples& shown = baked.capture.reflections;
     int near = 0, far = 0;
     for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
@@ -273,8 +273,8 @@ TEST(BakeMirrors, KeepWhatOnlyOtherEyesOfTheRegionSeeInThem) {
   // beside the mirror's opening for the camera.
   const ConvexPolygon region = square(2);
   const LayoutCamera camera = cameraAt({2, -2}, {region});
-  const Capture few = bakeFrom(scene, camera, false).capture;
-  const Baked baked = bakeFrom(scene, camera, true);
+  const Capture few = bakeMirrors(scene, camera, false).capture;
+  const BakedMirrors baked = bakeMirrors(scene, camera, true);
   const CaptureSamples& shown = baked.capture.reflections;
   std::size_t beside = 0;
   for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
@@ -309,8 +309,8 @@ TEST(BakeMirrors, KeepWhatEyesBetweenTheTestEyesSeeInThem) {
   const LayoutCamera camera = cameraAt({2, -2}, {region});
   BakeSettings dense;
   dense.testEyes = 64;
-  const Seen seen =
-      seenInMirror(*scene, camera, bakeFrom(scene, camera, true).capture, placedEyes(region, kEyeZ, dense));
+  const Seen seen = seenInMirror(*scene, camera, bakeMirrors(scene, camera, true).capture,
+                                 placedEyes(region, kEyeZ, dense));
   EXPECT_GT(seen.all, 300);
   EXPECT_LT(seen.missing, seen.all / 25);
 }
@@ -322,7 +322,7 @@ TEST(BakeMirrors, KeepWhatIsHiddenBehindWhatTheyShowFirst) {
   room.builder.box(room.builder.material(glowing(grey)), {-4, -0.4f, 0}, {-3.5f, 0.4f, 3});
   const auto scene = room.builder.rays();
   const ConvexPolygon region = square(2);
-  const Baked baked = bakeFrom(scene, cameraAt({0.5, 0}, {region}), true);
+  const BakedMirrors baked = bakeMirrors(scene, cameraAt({0.5, 0}, {region}), true);
   const CaptureSamples& shown = baked.capture.reflections;
   int behind = 0;
   for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
@@ -344,7 +344,7 @@ TEST(BakeMirrors, KeepWhatTheyShowCloseBeforeThem) {
   room.builder.box(room.builder.material(glowing(grey)), {5.2f, -0.1f, 0}, {5.3f, 0.1f, 2});
   LayoutCamera camera = cameraAt({0.5, 0.2}, {square(5)});
   camera.roles[0].grown = square(6.5);
-  const Capture capture = bakeFrom(room.builder.rays(), camera, true).capture;
+  const Capture capture = bakeMirrors(room.builder.rays(), camera, true).capture;
   const CaptureSamples& shown = capture.reflections;
   int close = 0;
   for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
@@ -366,7 +366,7 @@ TEST(BakeMirrors, KeepGlassAndWhatIsBehindItApart) {
                     {kPaneX, -2, 3});
   const auto scene = room.builder.rays();
   for (const bool pruning : {false, true}) {
-    const Capture capture = bakeFrom(scene, cameraAt({0.5, 0.2}, {square(1)}), pruning).capture;
+    const Capture capture = bakeMirrors(scene, cameraAt({0.5, 0.2}, {square(1)}), pruning).capture;
     const CaptureSamples& shown = capture.reflections;
     int panes = 0, behind = 0, composed = 0;
     for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k) {
@@ -441,12 +441,12 @@ TEST(BakeMirrors, ShadeTheSideThatIsSeenInThemAndNotTheOneTheMirroredRayMeets) {
   lightFromPositiveY(room);
   room.builder.box(room.builder.material(test::matte()), {3, -0.4f, 0}, {4.5f, 0, 3});
   const auto scene = room.builder.rays();
-  const Baked baked = bakeFrom(scene, cameraAt({1.5, -1}, {square(1.5, {0.5, 0.1})}), true);
+  const BakedMirrors baked = bakeMirrors(scene, cameraAt({1.5, -1}, {square(1.5, {0.5, 0.1})}), true);
   const auto places = shownAtTheMiddle(room, baked.capture, 3, 4.5);
   EXPECT_GT(places.size(), 100u);
   for (const ShownPlace& place : places) ASSERT_GT(place.colour.r, 0.99f * kLit) << place.original.x;
   for (const ShownPlace& place :
-       shownAtTheMiddle(room, bakeFrom(scene, cameraAt({1.5, -1}, {square(1)})).capture, 3, 4.5))
+       shownAtTheMiddle(room, bakeMirrors(scene, cameraAt({1.5, -1}, {square(1)})).capture, 3, 4.5))
     ADD_FAILURE() << "the camera itself does not see it: " << place.original.x;
 }
 
@@ -460,7 +460,7 @@ TEST(BakeMirrors, KeepASampleOfEachSideThatDifferentRolesSeeInThem) {
   for (const bool rightFirst : {true, false}) {
     const LayoutCamera camera =
         cameraAt({1.5, -1}, rightFirst ? std::vector{right, left} : std::vector{left, right});
-    const Capture capture = bakeFrom(scene, camera, true).capture;
+    const Capture capture = bakeMirrors(scene, camera, true).capture;
     std::array<int, 2> found{};
     for (const ShownPlace& place : shownAtTheMiddle(room, capture, 3, 5)) {
       const bool lit = place.colour.r > 0.99f * kLit;
@@ -475,7 +475,7 @@ TEST(BakeMirrors, KeepASampleOfEachSideThatDifferentRolesSeeInThem) {
   }
   // One that sees it from the left only: no sample of the side that the camera itself sees.
   const auto places =
-      shownAtTheMiddle(room, bakeFrom(scene, cameraAt({1.5, -1}, {left}), true).capture, 3, 5);
+      shownAtTheMiddle(room, bakeMirrors(scene, cameraAt({1.5, -1}, {left}), true).capture, 3, 5);
   EXPECT_GT(places.size(), 100u);
   for (const ShownPlace& place : places) ASSERT_GT(place.colour.r, 0.99f * kLit);
 }
@@ -486,7 +486,7 @@ TEST(BakeMirrors, TellWhichSideOfASurfaceTheyShow) {
   lightFromPositiveY(room);
   room.builder.quad(room.builder.material(test::matte()), {3, 0, 0}, {5, 0, 0}, {5, 0, 3}, {3, 0, 3});
   const std::vector regions = {square(0.5, {1.5, -1}), square(0.5, {1.5, 1})};
-  const Capture capture = bakeFrom(room.builder.rays(), cameraAt({1.5, -1}, regions), true, true).capture;
+  const Capture capture = bakeMirrors(room.builder.rays(), cameraAt({1.5, -1}, regions), true, true).capture;
   const CaptureSamples& shown = capture.reflections;
   std::array<int, 2> found{};
   for (std::size_t k = 0; k + 1 < shown.columnStart.size(); ++k)
@@ -513,7 +513,7 @@ TEST(BakeMirrors, AverageTexturesOverWhatASampleShows) {
   builder.quad(mirror, {3, -3, 0}, {3, -3, 3}, {3, 3, 3}, {3, 3, 0});
   const auto scene = builder.rays();
   for (const bool pruning : {false, true}) {
-    const Capture capture = bakeFrom(scene, cameraAt({0, 0}, {square(1)}), pruning).capture;
+    const Capture capture = bakeMirrors(scene, cameraAt({0, 0}, {square(1)}), pruning).capture;
     const CaptureSamples& shown = capture.reflections;
     int far = 0;
     double worst = 0, sum = 0;
@@ -533,13 +533,13 @@ TEST(BakeMirrors, AverageTexturesOverWhatASampleShows) {
 TEST(BakeMirrors, CostNoRaysWhereNoneCanBeSeen) {
   const MirrorRoom room;
   auto camera = cameraAt({0.5, 0.2}, {square(1)});
-  EXPECT_EQ(bakeFrom(room.builder.rays({Effect::mirrorReflection}), camera, true).counts.rays.mirror, 0u);
+  EXPECT_EQ(bakeMirrors(room.builder.rays({Effect::mirrorReflection}), camera, true).counts.rays.mirror, 0u);
   const auto scene = room.builder.rays();
-  EXPECT_GT(bakeFrom(scene, camera, true).counts.rays.mirror, 1000u);
+  EXPECT_GT(bakeMirrors(scene, camera, true).counts.rays.mirror, 1000u);
   camera.lowAzimuth += kPi;
-  EXPECT_EQ(bakeFrom(scene, camera, true).counts.rays.mirror, 0u) << "the camera looks away";
+  EXPECT_EQ(bakeMirrors(scene, camera, true).counts.rays.mirror, 0u) << "the camera looks away";
   auto behind = cameraAt({10, 0}, {square(1, {10, 0})});
-  EXPECT_EQ(bakeFrom(scene, behind, true).counts.rays.mirror, 0u) << "the region lies behind the mirror";
+  EXPECT_EQ(bakeMirrors(scene, behind, true).counts.rays.mirror, 0u) << "the region lies behind the mirror";
 }
 
 }  // namespace

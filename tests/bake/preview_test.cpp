@@ -16,8 +16,8 @@ using test::SceneBuilder;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A room of 6 x 5 x 3 m whose sides face inwards.
-RayScenePtr room(glm::vec3 colour = glm::vec3(0.5F)) {
+/// A previewRoom of 6 x 5 x 3 m whose sides face inwards.
+RayScenePtr previewRoom(glm::vec3 colour = glm::vec3(0.5F)) {
   SceneBuilder builder;
   builder.box(builder.material(matte(colour)), {0, 0, 0}, {6, 5, 3}, true);
   return builder.rays();
@@ -27,7 +27,7 @@ struct Met {
   double distance;
   glm::dvec3 normal;
 };
-/// What a ray from within the room meets, by hand.
+/// What a ray from within the previewRoom meets, by hand.
 Met wallOfRoom(const glm::dvec3& from, const glm::dvec3& way) {
   Met met{1e9, {}};
   const glm::dvec3 size(6, 5, 3);
@@ -51,7 +51,7 @@ PerspectiveView viewFrom(const glm::dvec3& eye, double yaw, double pitch) {
 }
 
 TEST(Preview, OfABoxRoomHasItsDistancesAndNormals) {
-  const PreviewTracer tracer(room());
+  const PreviewTracer tracer(previewRoom());
   TaskRunner runner(1);
   for (const double yaw : {0.3, 2.1, 4.4})
     for (const double pitch : {-0.9, 0.1, 0.8}) {
@@ -72,8 +72,8 @@ TEST(Preview, OfABoxRoomHasItsDistancesAndNormals) {
 }
 
 TEST(Preview, CutsAwayWhatIsAboveAndLooksPastWallsSeenFromBehind) {
-  const PreviewTracer tracer(room());
-  const glm::dvec3 eye(-3, 2.5, 5);  // outside, above the room
+  const PreviewTracer tracer(previewRoom());
+  const glm::dvec3 eye(-3, 2.5, 5);  // outside, above the previewRoom
   for (const double fall : {0.45, 0.6, 0.8}) {
     const glm::dvec3 way = glm::normalize(glm::dvec3(1, 0.1, -fall));
     // Without a cut the ceiling or a wall is seen from behind.
@@ -113,7 +113,7 @@ TEST(Preview, OfASceneWoundInsideOutStillShowsItUnderACut) {
 }
 
 TEST(Preview, ShowsSurfacesInTheirOwnColourBrightestWhereTheyFaceTheEye) {
-  const PreviewTracer tracer(room({0.8F, 0.2F, 0.1F}));
+  const PreviewTracer tracer(previewRoom({0.8F, 0.2F, 0.1F}));
   const glm::vec3 eye(3, 2.5F, 1.5F);
   const glm::vec3 facing = tracer.along({eye, {1, 0, 0}}).colour;
   const glm::vec3 slanted = tracer.along({eye, glm::normalize(glm::vec3(1, 0.7F, 0))}).colour;
@@ -142,7 +142,7 @@ TEST(Preview, SeesThroughWhatIsBlendedAndEndsAtWhatIsNot) {
 }
 
 TEST(Preview, OfACaptureCameraIsItsPanoramaWithTheFirstColumnAtTheRight) {
-  const PreviewTracer tracer(room());
+  const PreviewTracer tracer(previewRoom());
   LayoutCamera camera;
   camera.position = {2, 2};
   camera.lowAzimuth = 0.2;

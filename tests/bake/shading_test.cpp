@@ -16,7 +16,7 @@ using test::matte;
 using test::SceneBuilder;
 
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
-const glm::vec3 kDown(0, 0, -1);
+const glm::vec3 kDownwards(0, 0, -1);
 
 struct Probe {
   Shaded shaded;
@@ -87,7 +87,7 @@ TEST(Shading, ARangeEndsAPointLightSmoothly) {
 TEST(Shading, ASpotIsFullInsideTheInnerConeAndDarkOutsideTheOuter) {
   SceneBuilder builder;
   const float inner = 0.3f, outer = 0.6f, height = 2;
-  builder.floor(builder.material(matte()), 10).spot({0, 0, height}, kDown, 50, inner, outer);
+  builder.floor(builder.material(matte()), 10).spot({0, 0, height}, kDownwards, 50, inner, outer);
   const auto expected = [&](float angle) {
     const float d = height / std::cos(angle);
     const float t =
@@ -121,7 +121,7 @@ TEST(Shading, SunThroughColouredGlassIsTinted) {
   glass.transmission = 1;
   builder.floor(builder.material(matte()), 10)
       .floor(builder.material(glass), 1, 2)
-      .sun(kDown, 100)
+      .sun(kDownwards, 100)
       .sky(glm::vec3(1e-6f));
   const Probe p = probe(builder.rays(), {0.3f, 0.4f, 1}, {0.3f, 0.4f, 0});
   expectNear(p.shaded.radiance(), 100 * kInversePi * 0.92f * glm::vec3(1, 0.5f, 0.25f), 1e-4f);
@@ -135,7 +135,7 @@ TEST(Shading, EmissionAddsToLightAndUnlitIgnoresIt) {
   sign.unlit = true;
   builder.floor(builder.material(lamp), 1)
       .floor(builder.material(sign), 1, 0, {5, 0})
-      .sun(kDown, 10)
+      .sun(kDownwards, 10)
       .sky(glm::vec3(1e-6f));
   const auto scene = builder.rays();
   expectNear(probe(scene, {0.1f, 0.2f, 1}, {0.1f, 0.2f, 0}).shaded.radiance(),
@@ -279,7 +279,7 @@ TEST(Shading, WithoutASkyUnlitSidesGetAFixedShareOfTheTypicalLight) {
 
 TEST(Shading, EffectsThatAreOffTraceNoRayOfTheirKind) {
   SceneBuilder builder;
-  builder.floor(builder.material(matte()), 10).sun(kDown, 10).point({0, 0, 3}, 10).sky(glm::vec3(1));
+  builder.floor(builder.material(matte()), 10).sun(kDownwards, 10).point({0, 0, 3}, 10).sky(glm::vec3(1));
   const auto counts = [&](std::initializer_list<Effect> off) {
     return probe(builder.rays(off), {0, 0, 2}, {0.3f, 0.4f, 0}).rays;
   };
@@ -300,7 +300,7 @@ TEST(Shading, PicksTheInstantiationByThePlan) {
   EXPECT_EQ(plain.switches().direct, Shader::DirectLight::none);
   EXPECT_EQ(plain.switches().around, Shader::Around::even);
   EXPECT_FALSE(plain.switches().detail || plain.switches().special);
-  builder.sun(kDown, 1).sky(glm::vec3(1));
+  builder.sun(kDownwards, 1).sky(glm::vec3(1));
   builder.lastMesh().colours.assign(4, glm::u8vec4(9));
   const auto rays = builder.rays();
   const Shader full(*rays, {});

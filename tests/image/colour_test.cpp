@@ -10,8 +10,8 @@
 namespace acentric {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 /// IEC 61966-2-1, written down a second time in double.
 double referenceDecode(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
@@ -50,10 +50,10 @@ TEST(Srgb, TableCodesAreTheNearestOnes) {
 
 TEST(Srgb, ValuesOutsideTheRangeAreClamped) {
   EXPECT_EQ(srgbCodeFromLinear(-1), 0);
-  EXPECT_EQ(srgbCodeFromLinear(kNan), 0);
+  EXPECT_EQ(srgbCodeFromLinear(kNotANumber), 0);
   EXPECT_EQ(srgbCodeFromLinear(1), 255);
   EXPECT_EQ(srgbCodeFromLinear(std::nextafter(1.0f, 0.0f)), 255);
-  EXPECT_EQ(srgbCodeFromLinear(kInfinity), 255);
+  EXPECT_EQ(srgbCodeFromLinear(kInfinite), 255);
   EXPECT_EQ(srgbFromLinear(2), 1);
   EXPECT_EQ(linearFromSrgb(-3), 0);
 }
@@ -103,13 +103,13 @@ TEST(ToneMap, KeepsTheHueWhileHighlightsLoseColour) {
 }
 
 TEST(ToneMap, SurvivesRadianceThatIsNoNumber) {
-  EXPECT_EQ(toneMap(glm::vec3(kNan, -1, -kInfinity), 1), glm::vec3(0));
-  EXPECT_EQ(toneMap(glm::vec3(kNan, 0.5f, 0), 1), glm::vec3(0, 0.5f, 0));
-  EXPECT_EQ(toneMap(glm::vec3(0, 0.5f, 1), kNan), glm::vec3(0));
-  const glm::vec3 blinding = toneMap(glm::vec3(kInfinity), 1);
+  EXPECT_EQ(toneMap(glm::vec3(kNotANumber, -1, -kInfinite), 1), glm::vec3(0));
+  EXPECT_EQ(toneMap(glm::vec3(kNotANumber, 0.5f, 0), 1), glm::vec3(0, 0.5f, 0));
+  EXPECT_EQ(toneMap(glm::vec3(0, 0.5f, 1), kNotANumber), glm::vec3(0));
+  const glm::vec3 blinding = toneMap(glm::vec3(kInfinite), 1);
   EXPECT_NEAR(blinding.x, 1, 1e-6);
   EXPECT_EQ(blinding.x, blinding.z);
-  const glm::vec3 mixed = toneMap(glm::vec3(kInfinity, 0, kNan), 1e30f);
+  const glm::vec3 mixed = toneMap(glm::vec3(kInfinite, 0, kNotANumber), 1e30f);
   for (int channel = 0; channel < 3; ++channel) {
     EXPECT_GE(mixed[channel], 0);
     EXPECT_LE(mixed[channel], 1);
@@ -119,7 +119,7 @@ TEST(ToneMap, SurvivesRadianceThatIsNoNumber) {
 TEST(EncodeForDisplay, IsToneMapThenSrgb) {
   EXPECT_EQ(encodeForDisplay(glm::vec3(0, linearFromSrgb(0.5f), 0.5f), 1, 0.5f), Rgba8(0, 128, 188, 128));
   EXPECT_EQ(encodeForDisplay(glm::vec3(1e9f), 1), Rgba8(255));
-  EXPECT_EQ(encodeForDisplay(glm::vec3(kNan), 1, kNan), Rgba8(0));
+  EXPECT_EQ(encodeForDisplay(glm::vec3(kNotANumber), 1, kNotANumber), Rgba8(0));
 }
 
 TEST(BlendOver, AgreesWithADoublePrecisionReference) {

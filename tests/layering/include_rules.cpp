@@ -25,7 +25,7 @@ const std::vector<Home>& homes() {
   static const std::vector<Home> table{
       {"OpenImageIO", {"OpenImageIO/"}, {"engine/image/"}},
       {"Cairo", {"cairo"}, {"engine/picture/"}},
-      {"libpng", {"png.h"}, {"engine/export/"}},
+      {"libpng", {"png.h"}, {"engine/image/"}},
       {"libwebp", {"webp/"}, {"engine/export/"}},
       {"libavif", {"avif/"}, {"engine/store/"}},
       {"OpenEXR", {"OpenEXR/", "Imath/", "ImfArray", "Imf"}, {"engine/store/"}},

@@ -8,21 +8,21 @@
 namespace acentric {
 namespace {
 
-constexpr int kWidth = 40, kHeight = 20, kBorder = 15;
-constexpr PixelSource kCamera = 3;
+constexpr int kSeamWidth = 40, kSeamHeight = 20, kSeam = 15;
+constexpr PixelSource kSeamCamera = 3;
 
-/// A floor with a gradient, local geometry left of kBorder, exactly as the truth.
+/// A floor with a gradient, local geometry left of kSeam, exactly as the truth.
 struct Seam {
   Frame frame;
-  ColourImage truth{kWidth, kHeight};
-  FloatImage distance{kWidth, kHeight};
+  ColourImage truth{kSeamWidth, kSeamHeight};
+  FloatImage distance{kSeamWidth, kSeamHeight};
   Seam() {
-    frame.source = Image<PixelSource>(kWidth, kHeight, kCamera);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    frame.source = Image<PixelSource>(kSeamWidth, kSeamHeight, kSeamCamera);
+    for (int y = 0; y < kSeamHeight; ++y)
+      for (int x = 0; x < kSeamWidth; ++x) {
         truth.at(x, y) = Rgba8(100 + x, 80 + 2 * y, 90, 255);
         distance.at(x, y) = 40.0f / float(10 + y);  // a floor: inverse distances grow evenly
-        if (x < kBorder) frame.source.at(x, y) = kSourceLocal;
+        if (x < kSeam) frame.source.at(x, y) = kSourceLocal;
       }
     frame.colour = truth;
   }
@@ -31,18 +31,18 @@ struct Seam {
 
 TEST(Seam, CannotBeSeenWhereThePictureIsTheTruth) {
   const SeamSums sums = Seam().measure();
-  EXPECT_EQ(sums.across.pairs, std::size_t(kHeight));
+  EXPECT_EQ(sums.across.pairs, std::size_t(kSeamHeight));
   EXPECT_EQ(sums.across.meanExcess(), 0);
   EXPECT_EQ(sums.localError(), 0);
   EXPECT_EQ(sums.capturedError(), 0);
   EXPECT_EQ(sums.silhouettes, 0u);
-  EXPECT_EQ(sums.within.pairs, std::size_t(kHeight * (kWidth - 2) + kWidth * (kHeight - 1)));
+  EXPECT_EQ(sums.within.pairs, std::size_t(kSeamHeight * (kSeamWidth - 2) + kSeamWidth * (kSeamHeight - 1)));
 }
 
 TEST(Seam, ShowsAMisshadedSide) {
   Seam seam;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kBorder; ++x) seam.frame.colour.at(x, y) -= Rgba8(20, 20, 20, 0);
+  for (int y = 0; y < kSeamHeight; ++y)
+    for (int x = 0; x < kSeam; ++x) seam.frame.colour.at(x, y) -= Rgba8(20, 20, 20, 0);
   const SeamSums sums = seam.measure();
   EXPECT_NEAR(sums.localError(), 20, 1e-6);
   EXPECT_EQ(sums.capturedError(), 0);
@@ -65,18 +65,18 @@ TEST(Seam, CountsNoErrorThatBothSidesShare) {
 TEST(Seam, LeavesOutSilhouettesSkyAndHoles) {
   Seam seam;
   // A nearer thing begins at the border in the upper half; the lower half is sky beyond it, but for a hole.
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      if (y < kHeight / 2 && x < kBorder) seam.distance.at(x, y) *= 0.5f;
-      if (y >= kHeight / 2 && x >= kBorder) seam.distance.at(x, y) = std::numeric_limits<float>::infinity();
+  for (int y = 0; y < kSeamHeight; ++y)
+    for (int x = 0; x < kSeamWidth; ++x) {
+      if (y < kSeamHeight / 2 && x < kSeam) seam.distance.at(x, y) *= 0.5f;
+      if (y >= kSeamHeight / 2 && x >= kSeam) seam.distance.at(x, y) = std::numeric_limits<float>::infinity();
     }
   SeamSums sums = seam.measure();
   EXPECT_EQ(sums.across.pairs, 0u);
-  EXPECT_EQ(sums.silhouettes, std::size_t(kHeight / 2));
+  EXPECT_EQ(sums.silhouettes, std::size_t(kSeamHeight / 2));
 
   Seam open;
-  for (int y = 0; y < kHeight; ++y)
-    open.frame.source.at(kBorder, y) = y % 2 == 0 ? kSourceHole : kSourceInvented;
+  for (int y = 0; y < kSeamHeight; ++y)
+    open.frame.source.at(kSeam, y) = y % 2 == 0 ? kSourceHole : kSourceInvented;
   sums = open.measure();
   EXPECT_EQ(sums.across.pairs, 0u);
   EXPECT_EQ(sums.silhouettes, 0u);
@@ -84,10 +84,10 @@ TEST(Seam, LeavesOutSilhouettesSkyAndHoles) {
 
 TEST(Seam, SumsOverFrames) {
   Seam good, bad;
-  for (int y = 0; y < kHeight; ++y) bad.frame.colour.at(kBorder, y) += Rgba8(40, 40, 40, 0);
+  for (int y = 0; y < kSeamHeight; ++y) bad.frame.colour.at(kSeam, y) += Rgba8(40, 40, 40, 0);
   SeamSums both = good.measure();
   both += bad.measure();
-  EXPECT_EQ(both.across.pairs, std::size_t(2 * kHeight));
+  EXPECT_EQ(both.across.pairs, std::size_t(2 * kSeamHeight));
   EXPECT_DOUBLE_EQ(both.across.visibleShare(), 0.5);
   EXPECT_NEAR(both.capturedError(), 40 / std::sqrt(2.0), 1e-6);
 }
@@ -103,10 +103,11 @@ TEST(Change, IsNoneBetweenEqualPictures) {
 TEST(Change, CountsPixelsThatJump) {
   const Seam seam;
   ColourImage after = seam.truth;
-  for (int x = 0; x < kWidth; ++x) after.at(x, 3) += Rgba8(9, 9, 9, 0), after.at(x, 4) += Rgba8(7, 7, 7, 0);
+  for (int x = 0; x < kSeamWidth; ++x)
+    after.at(x, 3) += Rgba8(9, 9, 9, 0), after.at(x, 4) += Rgba8(7, 7, 7, 0);
   const Change change = changeBetween(seam.truth, after);
-  EXPECT_DOUBLE_EQ(change.changedShare, 1.0 / kHeight);
-  EXPECT_NEAR(change.psnr, 10 * std::log10(255 * 255 / ((81 + 49) / double(kHeight))), 1e-9);
+  EXPECT_DOUBLE_EQ(change.changedShare, 1.0 / kSeamHeight);
+  EXPECT_NEAR(change.psnr, 10 * std::log10(255 * 255 / ((81 + 49) / double(kSeamHeight))), 1e-9);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path pathFor(const char* name) {
+fs::path planPath(const char* name) {
   return fs::path(testing::TempDir()) / ("plan-" + std::to_string(getpid()) + "-" + name);
 }
 
@@ -36,24 +36,25 @@ glm::dvec2 middleOf(const ColourImage& image, const Rgba8& colour) {
   return sum / double(pixelsOf(image, colour));
 }
 
-constexpr Rgba8 kRed{255, 0, 0, 255}, kGreen{0, 255, 0, 255}, kBlue{0, 0, 255, 255};
+constexpr Rgba8 kPlanRed{255, 0, 0, 255}, kPlanGreen{0, 255, 0, 255}, kPlanBlue{0, 0, 255, 255};
 
 TEST(PlanPicture, DrawsTheWorldWithYUpwardsAndToScale) {
   PlanPicture picture;
-  for (const auto& [low, fill] : {std::pair{glm::dvec2(0, 0), kRed}, {{3, 0}, kGreen}, {{0, 4}, kBlue}}) {
+  for (const auto& [low, fill] :
+       {std::pair{glm::dvec2(0, 0), kPlanRed}, {{3, 0}, kPlanGreen}, {{0, 4}, kPlanBlue}}) {
     picture.polygons.push_back(square(low, 1));
     picture.polygons.back().fill = fill;
     picture.polygons.back().strokeWidth = 0;
   }
   const auto image = drawPlanPicture(picture);
   ASSERT_TRUE(image.has_value()) << image.error().describe();
-  const glm::dvec2 red = middleOf(*image, kRed), right = middleOf(*image, kGreen) - red,
-                   up = middleOf(*image, kBlue) - red;
+  const glm::dvec2 red = middleOf(*image, kPlanRed), right = middleOf(*image, kPlanGreen) - red,
+                   up = middleOf(*image, kPlanBlue) - red;
   EXPECT_GT(right.x, 0);
   EXPECT_NEAR(right.y, 0, 0.6);
   EXPECT_NEAR(up.x, 0, 0.6);
   EXPECT_NEAR(-up.y / right.x, 4.0 / 3, 0.01);
-  EXPECT_NEAR(std::sqrt(double(pixelsOf(*image, kRed))), right.x / 3, 2);
+  EXPECT_NEAR(std::sqrt(double(pixelsOf(*image, kPlanRed))), right.x / 3, 2);
 }
 
 TEST(PlanPicture, ColoursByValueAndMarksWhatIsOverTheLimit) {
@@ -78,23 +79,24 @@ TEST(PlanPicture, ColoursByValueAndMarksWhatIsOverTheLimit) {
 
 TEST(PlanPicture, PutsARastersFirstRowOnItsUpperSide) {
   PlanPicture picture;
-  ColourImage image(2, 2, kBlue);
-  image.at(0, 0) = kRed;
-  image.at(1, 1) = kGreen;
+  ColourImage image(2, 2, kPlanBlue);
+  image.at(0, 0) = kPlanRed;
+  image.at(1, 1) = kPlanGreen;
   picture.rasters.push_back({image, {-1, -1}, {1, 1}});
   const auto drawn = drawPlanPicture(picture);
   ASSERT_TRUE(drawn.has_value());
-  const glm::dvec2 red = middleOf(*drawn, kRed), green = middleOf(*drawn, kGreen);
+  const glm::dvec2 red = middleOf(*drawn, kPlanRed), green = middleOf(*drawn, kPlanGreen);
   EXPECT_LT(red.x, green.x);
   EXPECT_LT(red.y, green.y);
-  EXPECT_EQ(pixelsOf(*drawn, kRed), pixelsOf(*drawn, kGreen));
+  EXPECT_EQ(pixelsOf(*drawn, kPlanRed), pixelsOf(*drawn, kPlanGreen));
 }
 
 TEST(PlanPicture, DrawsACamerasSectorOnTheSideItLooksTo) {
   PlanPicture picture;
   picture.polygons.push_back(square({-2, -2}, 4));
   picture.cameraRadius = 1;
-  picture.cameras.push_back({{0, 0}, std::numbers::pi / 3, std::numbers::pi / 3, kRed});  // looks along +y
+  picture.cameras.push_back(
+      {{0, 0}, std::numbers::pi / 3, std::numbers::pi / 3, kPlanRed});  // looks along +y
   const auto image = drawPlanPicture(picture);
   ASSERT_TRUE(image.has_value());
   double count = 0;
@@ -107,8 +109,8 @@ TEST(PlanPicture, DrawsACamerasSectorOnTheSideItLooksTo) {
   sum /= count;
   PlanPicture dot;
   dot.polygons = picture.polygons;
-  dot.markers.push_back({{0, 0}, MarkerShape::dot, kBlue, 6, ""});
-  const auto centre = middleOf(drawPlanPicture(dot).value(), kBlue);
+  dot.markers.push_back({{0, 0}, MarkerShape::dot, kPlanBlue, 6, ""});
+  const auto centre = middleOf(drawPlanPicture(dot).value(), kPlanBlue);
   EXPECT_NEAR(sum.x, centre.x, 2);
   EXPECT_LT(sum.y, centre.y - 20);
 }
@@ -120,7 +122,7 @@ TEST(PlanPicture, IsWrittenAsSvgAndPng) {
   spec.outline.loops = {{{-2, -2}, {3, -2}, {3, 3}, {-2, 3}}};
   PlanPicture picture = pictureOf(buildLayout(spec).value(), "A & B <plan> \xff");
   picture.notes = {"grüße: 5 m²"};
-  const fs::path svg = pathFor("a.svg"), png = pathFor("a.png");
+  const fs::path svg = planPath("a.svg"), png = planPath("a.png");
   ASSERT_TRUE(writePlanPicture(picture, svg).has_value());
   ASSERT_TRUE(writePlanPicture(picture, png).has_value());
   const std::string text = readText(svg).value();
@@ -136,14 +138,14 @@ TEST(PlanPicture, IsWrittenAsSvgAndPng) {
 
 TEST(PlanPicture, RefusesWhatItCannotWrite) {
   PlanPicture picture;
-  const auto ending = writePlanPicture(picture, pathFor("a.jpg"));
+  const auto ending = writePlanPicture(picture, planPath("a.jpg"));
   ASSERT_FALSE(ending.has_value());
   EXPECT_EQ(ending.error().kind, ErrorKind::invalidArgument);
   EXPECT_FALSE(writePlanPicture(picture, "/proc/no/such/folder/a.png").has_value());
   picture.width = 10;
   EXPECT_FALSE(drawPlanPicture(picture).has_value());
   picture.width = 400;
-  picture.markers.push_back({{std::nan(""), 0}, MarkerShape::dot, kRed, 5, ""});
+  picture.markers.push_back({{std::nan(""), 0}, MarkerShape::dot, kPlanRed, 5, ""});
   EXPECT_FALSE(drawPlanPicture(picture).has_value());
   picture.markers.clear();
   EXPECT_TRUE(drawPlanPicture(picture).has_value()) << "an empty plan is a page with its title";

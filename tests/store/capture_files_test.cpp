@@ -6,6 +6,7 @@
 #include "engine/base/file.h"
 #include "engine/store/capture_exr.h"
 #include "engine/store/capture_store.h"
+#include "tests/store/sealed_pack.h"
 #include "tests/store/synthetic_capture.h"
 #include "tests/store/temporary_folder.h"
 
@@ -275,16 +276,6 @@ TEST_P(CaptureFiles, DamagedByChanceAreRefusedOrUnharmed) {
   }
 }
 
-/// Gives changed bytes of a pack the size and the checksum that they need to be believed.
-void seal(std::vector<std::byte>& pack) {
-  const std::size_t checked = pack.size() - 16;
-  const std::uint64_t fileBytes = pack.size();
-  std::memcpy(pack.data() + 32, &fileBytes, sizeof fileBytes);
-  const ContentKey checksum = Hasher().bytes(pack.data(), checked).finish();
-  std::memcpy(pack.data() + checked, &checksum.high, 8);
-  std::memcpy(pack.data() + checked + 8, &checksum.low, 8);
-}
-
 TEST_F(FolderTest, PacksKeepSilhouettes) {
   for (const bool mirrors : {false, true}) {
     const Capture capture = withSilhouettes(syntheticCapture({48, 40, true, true, 11, mirrors}));
@@ -312,7 +303,7 @@ TEST_F(FolderTest, PacksForgedWithAMatchingChecksumAreHarmless) {
       const std::byte values[] = {std::byte(0), std::byte(0xff), std::byte(0x7f),
                                   bytes[at] ^ std::byte(1u << (random() % 8))};
       bytes[at] = values[random() % 4];
-      seal(bytes);
+      test::seal(bytes);
       writeQuickly(path, bytes);
       const auto read = kPack.read(path);
       if (read) {
@@ -339,7 +330,7 @@ TEST_F(FolderTest, PacksThatClaimReflectionsTheyDoNotHaveAreRefused) {
         count + (std::uint64_t(1) << 60)}) {
     auto bytes = sound;
     std::memcpy(bytes.data() + kReflectionCount, &claimed, sizeof claimed);
-    seal(bytes);
+    test::seal(bytes);
     writeQuickly(path, bytes);
     const auto read = kPack.read(path);
     ASSERT_FALSE(read) << claimed;

@@ -15,6 +15,7 @@
 #include "engine/store/deep_colours.h"
 #include "engine/store/distance_model.h"
 #include "engine/store/sample_coder.h"
+#include "tests/store/sealed_pack.h"
 #include "tests/store/synthetic_capture.h"
 #include "tests/store/temporary_folder.h"
 
@@ -22,7 +23,7 @@ namespace acentric {
 namespace {
 namespace fs = std::filesystem;
 
-const ContentKey kKey{5, 6};
+const ContentKey kPackKey{5, 6};
 constexpr int kQuality = kUsualColourQuality;
 
 /// Colours that change slowly over the picture, from dark to ten times white; deeper layers have others.
@@ -72,7 +73,7 @@ class CodedPack : public FolderTest {
  protected:
   fs::path file() const { return folder_ / "c.pack"; }
   Result<Capture> thereAndBack(const Capture& capture, int quality) const {
-    const Status written = writeCodedPack(capture, kKey, file(), quality);
+    const Status written = writeCodedPack(capture, kPackKey, file(), quality);
     EXPECT_TRUE(written) << written.error().describe();
     return readCapturePack(file());
   }
@@ -267,16 +268,16 @@ TEST_F(CodedPack, IsAsTrueAsItsQualityAndAsSmall) {
   const std::uintmax_t usual = fs::file_size(file());
   ASSERT_TRUE(thereAndBack(capture, kLosslessColours));
   const std::uintmax_t lossless = fs::file_size(file());
-  ASSERT_TRUE(writeCapturePack(capture, kKey, file()));
+  ASSERT_TRUE(writeCapturePack(capture, kPackKey, file()));
   EXPECT_LT(usual, lossless);
   EXPECT_LT(lossless, fs::file_size(file()));
 }
 
 TEST_F(CodedPack, IsTheSameBytesEachTime) {
   const Capture capture = smoothly(syntheticCapture({300, 260, true, true, 6, true}));
-  ASSERT_TRUE(writeCodedPack(capture, kKey, file(), kQuality));
+  ASSERT_TRUE(writeCodedPack(capture, kPackKey, file(), kQuality));
   const auto first = readFile(file());
-  ASSERT_TRUE(writeCodedPack(capture, kKey, file(), kQuality));
+  ASSERT_TRUE(writeCodedPack(capture, kPackKey, file(), kQuality));
   EXPECT_EQ(*first, *readFile(file()));
 }
 
@@ -284,37 +285,27 @@ TEST_F(CodedPack, StandsBesidePlainOnesInAStore) {
   const auto store = CaptureStore::open(folder_ / "captures");
   ASSERT_TRUE(store);
   const Capture capture = smoothly(syntheticCapture({48, 40, true, true, 3, true}));
-  ASSERT_TRUE(writeCapturePack(capture, kKey, store->packFile(kKey))) << "as earlier versions did";
-  EXPECT_EQ(store->inspect(kKey, true)->condition, CaptureStore::Condition::sound);
-  EXPECT_EQ(*store->get(kKey), capture);
-  ASSERT_TRUE(store->put(kKey, capture, {}, kQuality));
-  EXPECT_EQ(withColoursOf(*store->get(kKey), capture), capture);
+  ASSERT_TRUE(writeCapturePack(capture, kPackKey, store->packFile(kPackKey))) << "as earlier versions did";
+  EXPECT_EQ(store->inspect(kPackKey, true)->condition, CaptureStore::Condition::sound);
+  EXPECT_EQ(*store->get(kPackKey), capture);
+  ASSERT_TRUE(store->put(kPackKey, capture, {}, kQuality));
+  EXPECT_EQ(withColoursOf(*store->get(kPackKey), capture), capture);
 }
 
 TEST_F(CodedPack, StoppedIsNotThere) {
   std::stop_source stop;
   stop.request_stop();
-  const Status written = writeCodedPack(syntheticCapture({}), kKey, file(), kQuality, stop.get_token());
+  const Status written = writeCodedPack(syntheticCapture({}), kPackKey, file(), kQuality, stop.get_token());
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::cancelled);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-/// Gives changed bytes the checksum that they need to be believed.
-void seal(std::vector<std::byte>& pack) {
-  const std::size_t checked = pack.size() - 16;
-  const std::uint64_t fileBytes = pack.size();
-  std::memcpy(pack.data() + 32, &fileBytes, sizeof fileBytes);
-  const ContentKey checksum = Hasher().bytes(pack.data(), checked).finish();
-  std::memcpy(pack.data() + checked, &checksum.high, 8);
-  std::memcpy(pack.data() + checked + 8, &checksum.low, 8);
-}
-
 TEST_F(CodedPack, ForgedIsRefusedOrACapture) {
   std::mt19937 random(31);
   for (const int quality : {kQuality, kLosslessColours}) {
-    ASSERT_TRUE(writeCodedPack(withSilhouettes(syntheticCapture({32, 24, true, true, 1, true})), kKey, file(),
-                               quality));
+    ASSERT_TRUE(writeCodedPack(withSilhouettes(syntheticCapture({32, 24, true, true, 1, true})), kPackKey,
+                               file(), quality));
     const auto sound = readFile(file()).value();
     constexpr std::size_t kHead = 56 + 199 + 8 * 7;
     int refused = 0;
@@ -325,7 +316,7 @@ TEST_F(CodedPack, ForgedIsRefusedOrACapture) {
       const std::byte values[] = {std::byte(0), std::byte(0xff), std::byte(0x7f),
                                   bytes[at] ^ std::byte(1u << (random() % 8))};
       bytes[at] = values[random() % 4];
-      seal(bytes);
+      test::seal(bytes);
       writeQuickly(file(), bytes);
       const auto read = readCapturePack(file());
       if (read) {
@@ -341,12 +332,12 @@ TEST_F(CodedPack, ForgedIsRefusedOrACapture) {
 }
 
 TEST_F(CodedPack, OfAHugeEmptyPictureIsRefusedUnlessItsFileIsAsLarge) {
-  ASSERT_TRUE(writeCodedPack(syntheticCapture({32, 24, false, true, 1}), kKey, file(), kLosslessColours));
+  ASSERT_TRUE(writeCodedPack(syntheticCapture({32, 24, false, true, 1}), kPackKey, file(), kLosslessColours));
   auto bytes = readFile(file()).value();
   const std::uint32_t huge = 65535;
   std::memcpy(bytes.data() + 56 + 64, &huge, 4);  // columns
   std::memcpy(bytes.data() + 56 + 68, &huge, 4);  // rows
-  seal(bytes);
+  test::seal(bytes);
   writeQuickly(file(), bytes);
   const auto read = readCapturePack(file());
   ASSERT_FALSE(read);
@@ -357,7 +348,7 @@ TEST_F(CodedPack, OfDisplaysShowsWhatTheCaptureDoesAtItsExposure) {
   for (const Capture& shape : everyShape())
     for (const float exposure : {1.0f, 2.5f}) {
       const Capture capture = smoothly(shape);
-      ASSERT_TRUE(writeDisplayPack(capture, kKey, file(), kQuality, exposure));
+      ASSERT_TRUE(writeDisplayPack(capture, kPackKey, file(), kQuality, exposure));
       const auto back = readCapturePack(file());
       ASSERT_TRUE(back) << back.error().describe();
       ASSERT_TRUE(back->shown);
@@ -369,10 +360,10 @@ TEST_F(CodedPack, OfDisplaysShowsWhatTheCaptureDoesAtItsExposure) {
 }
 
 TEST_F(CodedPack, OfDisplaysHasPictures) {
-  ASSERT_TRUE(writeDisplayPack(smoothly(everyShape().front()), kKey, file(), kQuality, 1));
+  ASSERT_TRUE(writeDisplayPack(smoothly(everyShape().front()), kPackKey, file(), kQuality, 1));
   std::vector<std::byte> bytes = *readFile(file());
   bytes[56 + 124] = std::byte(kLosslessColours);
-  seal(bytes);
+  test::seal(bytes);
   writeQuickly(file(), bytes);
   const auto read = readCapturePack(file());
   ASSERT_FALSE(read);

@@ -10,10 +10,7 @@
 namespace acentric::ui {
 namespace {
 
-constexpr int kSize = 128;
-constexpr ImU32 kRed = IM_COL32(255, 0, 0, 255), kGreen = IM_COL32(0, 255, 0, 255);
-const glm::ivec3 kBlack(0), kPureRed(255, 0, 0), kPureGreen(0, 255, 0);
-
+using test::kBlack, test::kGreen, test::kPureGreen, test::kPureRed, test::kRed, test::kSize;
 /// So many pixels per metre around a point.
 CanvasView viewAt(const glm::dvec2& centre, double pixelsPerMetre) {
   CanvasView view;

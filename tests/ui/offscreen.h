@@ -13,6 +13,11 @@
 
 namespace acentric::ui::test {
 
+/// What meshes are drawn with in tests, and as it is read back.
+inline constexpr int kSize = 128;  ///< pixels of a side
+inline constexpr ImU32 kRed = IM_COL32(255, 0, 0, 255), kGreen = IM_COL32(0, 255, 0, 255);
+inline const glm::ivec3 kBlack(0), kPureRed(255, 0, 0), kPureGreen(0, 255, 0);
+
 class Offscreen {
  public:
   Offscreen(int width, int height) : width_(width), height_(height) {

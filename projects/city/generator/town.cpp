@@ -11,8 +11,8 @@ namespace {
 
 using gallery::Shape;
 
-constexpr int kBlocks = 20;  // each way
-constexpr float kPitch = 100, kStreet = 12, kReach = 0.5f * kPitch * kBlocks;
+constexpr int kTownBlocks = 20;  // each way
+constexpr float kTownPitch = 100, kTownStreet = 12, kReach = 0.5f * kTownPitch * kTownBlocks;
 constexpr int kSlots = 7;       // for houses, along a side of a block
 constexpr float kSlot = 12;     // metres
 constexpr float kCentre = 300;  // half the width of where houses are close together
@@ -64,20 +64,21 @@ gallery::Model makeTown() {
   };
   model.add("ground", grass, level(-kReach, -kReach, kReach, kReach, 0));
   Shape streets;
-  for (int s = 0; s <= kBlocks; ++s) {
-    const float at = kPitch * (float(s) - 0.5f * kBlocks);
-    const float low = std::max(at - 0.5f * kStreet, -kReach), high = std::min(at + 0.5f * kStreet, kReach);
+  for (int s = 0; s <= kTownBlocks; ++s) {
+    const float at = kTownPitch * (float(s) - 0.5f * kTownBlocks);
+    const float low = std::max(at - 0.5f * kTownStreet, -kReach),
+                high = std::min(at + 0.5f * kTownStreet, kReach);
     streets.append(level(low, -kReach, high, kReach, 0.03f));
     streets.append(level(-kReach, low, kReach, high, 0.02f));
   }
   model.add("streets", asphalt, std::move(streets));
 
   Shape walls[4], roofs;
-  const float side = kPitch - kStreet;
-  for (int bx = 0; bx < kBlocks; ++bx)
-    for (int by = 0; by < kBlocks; ++by) {
-      const glm::vec2 middle(kPitch * (float(bx) + 0.5f - 0.5f * kBlocks),
-                             kPitch * (float(by) + 0.5f - 0.5f * kBlocks));
+  const float side = kTownPitch - kTownStreet;
+  for (int bx = 0; bx < kTownBlocks; ++bx)
+    for (int by = 0; by < kTownBlocks; ++by) {
+      const glm::vec2 middle(kTownPitch * (float(bx) + 0.5f - 0.5f * kTownBlocks),
+                             kTownPitch * (float(by) + 0.5f - 0.5f * kTownBlocks));
       const float out = std::max(std::abs(middle.x), std::abs(middle.y));
       const bool centre = out < kCentre, market = middle.x == 50 && middle.y == 50;
       if (market || (!centre && chance(bx, by, -1, -1) < 0.25f)) continue;  // the others are fields

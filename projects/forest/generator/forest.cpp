@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "projects/forest/generator/houses.h"
 #include "projects/forest/generator/materials.h"
@@ -28,11 +27,6 @@ constexpr float kFlat = 19;         // ground is level so far from the street
 constexpr float kLeastReach = 240;  // of the ground, from the street
 constexpr float kSpacing = 5.2f;    // between trees of the woods
 
-float smooth(float low, float high, float v) {
-  const float t = std::clamp((v - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 /// From the street's middle, along the whole of it.
 float fromStreet(const glm::vec2& p) {
   const float beyond = std::max(0.0f, std::abs(p.y) - kStreetEnd);
@@ -43,7 +37,8 @@ float fromStreet(const glm::vec2& p) {
 float groundAt(const glm::vec2& p) {
   const float beyond = std::max(0.0f, fromStreet(p) - kFlat);
   const float rise = 0.17f * beyond * beyond / (beyond + 30);
-  return rise * std::exp(-beyond / 1500) + smooth(0, 120, beyond) * 5 * fractalNoise({p / 80.0f, 0}, 3, 5);
+  return rise * std::exp(-beyond / 1500) +
+         glm::smoothstep(0.0f, 120.0f, beyond) * 5 * fractalNoise({p / 80.0f, 0}, 3, 5);
 }
 
 struct HousePlace {
@@ -126,8 +121,8 @@ std::vector<Place> streetTrees(std::uint64_t seed) {
 
 Kind woodKind(const glm::vec2& p, int i, int j, float away, std::uint64_t seed) {
   const auto s = std::uint32_t(seed);
-  const float conifers =
-      0.5f + 0.9f * fractalNoise({p / 70.0f, 7}, 2, s + 31) + smooth(60, 260, away) * 0.2f - 0.12f;
+  const float conifers = 0.5f + 0.9f * fractalNoise({p / 70.0f, 7}, 2, s + 31) +
+                         glm::smoothstep(60.0f, 260.0f, away) * 0.2f - 0.12f;
   const float pick = hashUnit(i, j, 22, s);
   if (hashUnit(i, j, 23, s) < conifers)
     return pick < 0.42f ? Kind::spruce : pick < 0.8f ? Kind::spruce2 : Kind::pine;
@@ -184,7 +179,7 @@ std::vector<Place> allPlaces(std::size_t trees, const std::vector<HousePlace>& h
         const bool town = std::abs(p.y) < kTownEnd + 15;
         const float begins = town ? 22.5f : 12.5f;
         if (away < begins || !free(p, 3.5f)) return 0.0f;
-        return town ? glm::mix(0.3f, 0.92f, smooth(24, 42, away)) : 0.92f;
+        return town ? glm::mix(0.3f, 0.92f, glm::smoothstep(24.0f, 42.0f, away)) : 0.92f;
       },
       [&](const glm::vec2& p, float away, int i, int j) {
         if (away < 30 && std::abs(p.y) < kTownEnd)
@@ -212,7 +207,7 @@ std::vector<Place> allPlaces(std::size_t trees, const std::vector<HousePlace>& h
       share(0.5f), 0.95f, seed, 4,
       [&](const glm::vec2& p, float away) {
         if (away < kVerge + 0.6f || !free(p, 0.4f)) return 0.0f;
-        return glm::mix(0.9f, 0.25f, smooth(8, 22, away));
+        return glm::mix(0.9f, 0.25f, glm::smoothstep(8.0f, 22.0f, away));
       },
       [&](const glm::vec2& p, float, int i, int j) {
         const bool bed = fractalNoise({p / 4.0f, 8}, 2, 43) > 0.22f;
@@ -265,7 +260,7 @@ Shape ground(float reach) {
     const float away = fromStreet(glm::vec2(p));
     const glm::vec3 lawn(0.19f, 0.27f, 0.075f), litter(0.21f, 0.15f, 0.085f), moss(0.15f, 0.19f, 0.06f);
     const glm::vec3 wood = glm::mix(litter, moss, 0.5f + 0.5f * fractalNoise({p.x / 9, p.y / 9, 0}, 2, 51));
-    return glm::mix(lawn, wood, smooth(16, 36, away));
+    return glm::mix(lawn, wood, glm::smoothstep(16.0f, 36.0f, away));
   });
   return out;
 }
@@ -364,7 +359,8 @@ gallery::Thing makePlant(Kind kind, std::size_t triangles, std::uint64_t seed, c
 
 float streetAt(float y) {
   const float away = std::max(0.0f, std::abs(y) - 20);
-  return (y > 0 ? 9.0f : -7.0f) * smooth(0, 90, away) + (y > 0 ? -16.0f : 12.0f) * smooth(60, 220, away);
+  return (y > 0 ? 9.0f : -7.0f) * glm::smoothstep(0.0f, 90.0f, away) +
+         (y > 0 ? -16.0f : 12.0f) * glm::smoothstep(60.0f, 220.0f, away);
 }
 
 gallery::Model makeForest(const ForestOptions& options) {

@@ -22,11 +22,6 @@ using gallery::Random;
 
 constexpr int kJpegQuality = 88;
 
-float smooth(float low, float high, float v) {
-  const float t = std::clamp((v - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 /// Marks on a picture with alpha; positions in pixels, y downwards.
 class Sprigs {
  public:
@@ -103,7 +98,7 @@ void paintSprig(Sprigs& out, const glm::vec2& corner, float size, const LeafKind
               glm::mix(kind.dark, kind.light, std::clamp(0.25f + 0.5f * shade + 0.25f * t, 0.0f, 1.0f));
           tint *= glm::vec3(1 + 0.12f * hue, 1, 1 - 0.1f * hue);
           tint *= 0.93f + 0.1f * std::abs(std::sin(22 * (t - 0.35f * std::abs(side))));
-          return glm::mix(tint, kind.rib, 0.7f * smooth(0.12f, 0.03f, std::abs(side)));
+          return glm::mix(tint, kind.rib, 0.7f * glm::smoothstep(0.12f, 0.03f, std::abs(side)));
         });
   }
 }
@@ -185,7 +180,7 @@ Canvas barkPicture(int size, const glm::vec3& dark, const glm::vec3& light, floa
   canvas.fill([&](const glm::vec2& p) {
     const float wander = 0.4f * fractalNoise({p.x * 4, p.y * 4, 0}, 3, 91, 4);
     const auto ridge = cellAt({p.x * 14 + wander, p.y * plates + wander}, 92, 0);
-    const float crack = smooth(0.0f, 0.22f, ridge.second - ridge.nearest);
+    const float crack = glm::smoothstep(0.0f, 0.22f, ridge.second - ridge.nearest);
     const float grain = fractalNoise({p.x * 32, p.y * 8, 1}, 3, 93, 8);
     return glm::mix(dark, light, std::clamp(0.15f + 0.6f * crack + 0.25f * grain, 0.0f, 1.0f));
   });
@@ -198,8 +193,8 @@ Canvas birchPicture(int size) {
     const float streak = fractalNoise({p.x * 4, p.y * 40, 0}, 3, 95, 4);
     const float patch = fractalNoise({p.x * 4, p.y * 12, 4}, 3, 96, 4);
     const glm::vec3 white = colour(0xdcd7cb) * (0.95f + 0.1f * patch);
-    const glm::vec3 lined = glm::mix(white, colour(0x6f655a), 0.75f * smooth(0.2f, 0.38f, streak));
-    return glm::mix(lined, colour(0x25211d), smooth(0.3f, 0.38f, patch));
+    const glm::vec3 lined = glm::mix(white, colour(0x6f655a), 0.75f * glm::smoothstep(0.2f, 0.38f, streak));
+    return glm::mix(lined, colour(0x25211d), glm::smoothstep(0.3f, 0.38f, patch));
   });
   return canvas;
 }
@@ -226,8 +221,8 @@ Canvas cobblesPicture(int size) {
     const glm::vec3 face =
         gradient({colour(0x6e675d), colour(0x857c6f), colour(0x9b9183), colour(0x77716a)}, stone.value) *
         (1 + 0.16f * grain);
-    const float dome = 0.8f + 0.2f * smooth(0.05f, 0.5f, edge);
-    return glm::mix(colour(0x4b453a), face * dome, smooth(0.03f, 0.12f, edge));
+    const float dome = 0.8f + 0.2f * glm::smoothstep(0.05f, 0.5f, edge);
+    return glm::mix(colour(0x4b453a), face * dome, glm::smoothstep(0.03f, 0.12f, edge));
   });
   return canvas;
 }
@@ -241,7 +236,7 @@ Canvas kerbPicture(int size) {
     return glm::mix(
         colour(0x5b554b),
         gradient({colour(0x98907f), colour(0xaba292)}, hashUnit(int(block), 0, 0, 122)) * (1 + 0.14f * grain),
-        smooth(0.01f, 0.03f, joint));
+        glm::smoothstep(0.01f, 0.03f, joint));
   });
   return canvas;
 }
@@ -270,8 +265,9 @@ Canvas tilesPicture(int size) {
         gradient({colour(0x7a3a26), colour(0x934a2f), colour(0xa85a3a), colour(0x8a4a38)}, own);
     const float gap = std::min(0.5f - std::abs(local.x), 1.0f);
     const float shade = local.y > end ? 0.4f : 0.72f + 0.33f * local.y;
-    const float moss = smooth(0.25f, 0.5f, fractalNoise({p * 5.0f, 2}, 4, 142, 5));
-    return glm::mix(tile * shade * smooth(-0.02f, 0.05f, gap), colour(0x50552f) * shade, 0.35f * moss) *
+    const float moss = glm::smoothstep(0.25f, 0.5f, fractalNoise({p * 5.0f, 2}, 4, 142, 5));
+    return glm::mix(tile * shade * glm::smoothstep(-0.02f, 0.05f, gap), colour(0x50552f) * shade,
+                    0.35f * moss) *
            (1 + 0.1f * fractalNoise({p * 50.0f, 0}, 2, 143, 50));
   });
   return canvas;
@@ -286,7 +282,7 @@ Canvas stonePicture(int size) {
     return glm::mix(
         colour(0x8c8473),
         gradient({colour(0x78736a), colour(0x8f887b), colour(0xa29a89)}, stone.value) * (1 + 0.18f * grain),
-        smooth(0.02f, 0.08f, edge));
+        glm::smoothstep(0.02f, 0.08f, edge));
   });
   return canvas;
 }
@@ -296,7 +292,7 @@ Canvas woodPicture(int size) {
   canvas.fill([](const glm::vec2& p) {
     const float board = std::floor(p.x * 6), local = p.x * 6 - board;
     const float grain = fractalNoise({p.x * 48, p.y * 6, board}, 4, 161, 6);
-    const float joint = smooth(0.0f, 0.05f, std::min(local, 1 - local));
+    const float joint = glm::smoothstep(0.0f, 0.05f, std::min(local, 1 - local));
     return glm::vec3(0.75f) * (0.8f + 0.2f * hashUnit(int(board), 0, 0, 162)) * (1 + 0.28f * grain) *
            (0.45f + 0.55f * joint);
   });

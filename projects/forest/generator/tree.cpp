@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "projects/gallery/generator/noise.h"
 
@@ -14,7 +14,6 @@ namespace {
 using gallery::Random;
 using gallery::Shape;
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kGolden = 137.50776f;  // degrees between stems that follow each other
 constexpr float kTip = 0.25f;          // radius of a stem's end, share of its foot's
 
@@ -54,11 +53,11 @@ float shareOfCrown(Crown crown, float above) {
     case Crown::flame:
       return above <= 0.7f ? 0.3f + 0.7f * above / 0.7f : 0.3f + 0.7f * (1 - above) / 0.3f;
     case Crown::broad:
-      return 0.45f + 0.55f * std::sin(0.5f * kPi * std::min(1.0f, above + 0.2f));
+      return 0.45f + 0.55f * std::sin(0.5f * glm::pi<float>() * std::min(1.0f, above + 0.2f));
     case Crown::round:
       break;
   }
-  return 0.35f + 0.65f * std::sin(kPi * std::clamp(0.12f + 0.82f * above, 0.0f, 1.0f));
+  return 0.35f + 0.65f * std::sin(glm::pi<float>() * std::clamp(0.12f + 0.82f * above, 0.0f, 1.0f));
 }
 
 Stem grown(const StemLevel& how, int level, const glm::vec3& foot, glm::vec3 direction, float length,
@@ -138,7 +137,7 @@ void addTube(Shape& out, const Stem& stem, int sides, int stride, float flare) {
   glm::vec3 side = besideOf(stem.directionAt(0));
   const auto first = std::uint32_t(out.positions.size());
   // The picture, a metre wide, fits around a whole number of times, or a part of it once.
-  const float around = 2 * kPi * stem.radius;
+  const float around = 2 * glm::pi<float>() * stem.radius;
   const float width = around > 0.6f ? std::round(around) + (around < 1 ? 1 : 0) : around;
   float length = 0;
   for (std::size_t r = 0; r < rings.size(); ++r) {
@@ -149,7 +148,7 @@ void addTube(Shape& out, const Stem& stem, int sides, int stride, float flare) {
     if (r > 0) length += glm::distance(stem.points[rings[r]], stem.points[rings[r - 1]]);
     const float radius = stem.radiusAt(t) * (1 + flare * std::exp(-length / (2.2f * stem.radius)));
     for (int s = 0; s <= sides; ++s) {
-      const float angle = s == sides ? 0.0f : 2 * kPi * float(s) / float(sides);
+      const float angle = s == sides ? 0.0f : 2 * glm::pi<float>() * float(s) / float(sides);
       const glm::vec3 normal = std::cos(angle) * side + std::sin(angle) * other;
       out.add(stem.points[rings[r]] + radius * normal, normal, {width * float(s) / float(sides), -length});
     }

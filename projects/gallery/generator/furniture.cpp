@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 #include <vector>
 
 #include "projects/gallery/generator/canvas.h"
@@ -13,7 +13,6 @@
 namespace acentric::gallery {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr glm::vec3 kLampGlobe{-4.667f, 0, 3.0f};
 
 /// A knot of two by three turns, standing.
@@ -21,7 +20,7 @@ Shape sculpture() {
   std::vector<glm::vec3> line;
   constexpr int kSteps = 168;
   for (int i = 0; i < kSteps; ++i) {
-    const float t = 2 * kPi * static_cast<float>(i) / kSteps;
+    const float t = 2 * glm::pi<float>() * static_cast<float>(i) / kSteps;
     const float ring = 0.088f * (2 + std::cos(3 * t));
     line.emplace_back(ring * std::cos(2 * t), 0.088f * std::sin(3 * t), ring * std::sin(2 * t));
   }

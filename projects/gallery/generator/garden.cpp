@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <glm/gtc/constants.hpp>
 #include <vector>
 
 #include "projects/gallery/generator/canvas.h"
@@ -14,7 +14,6 @@
 namespace acentric::gallery {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kStairHalf = 1.3f;  // the way down to the lawn
 constexpr float kTerraceStart = kHalfLength + kWall;
 
@@ -85,9 +84,10 @@ void paintFoliage(Shape& shape, const glm::vec3& dark, const glm::vec3& light, s
 Shape cypress() {
   Shape out;
   addGrid(out, 22, 28, [](float s, float t) {
-    const float turn = 2 * kPi * (s - std::floor(s)), up = std::clamp(t, 0.0f, 1.0f);
+    const float turn = 2 * glm::pi<float>() * (s - std::floor(s)), up = std::clamp(t, 0.0f, 1.0f);
     const float body =
-        0.62f * std::pow(std::max(0.0f, std::sin(kPi * std::pow(0.02f + 0.98f * up, 0.62f))), 0.85f);
+        0.62f *
+        std::pow(std::max(0.0f, std::sin(glm::pi<float>() * std::pow(0.02f + 0.98f * up, 0.62f))), 0.85f);
     const glm::vec3 ring(std::cos(turn), std::sin(turn), 5.6f * up);
     const float rough = 1 + 0.30f * fractalNoise({ring.x * 2.6f, ring.y * 2.6f, ring.z * 3.2f}, 3, 9);
     return glm::vec3(body * rough * glm::vec2(ring), 0.25f + 5.6f * t);
@@ -120,7 +120,7 @@ void addRidge(Shape& out, float distance, float low, float high, std::uint32_t s
               const glm::vec3& crest) {
   Shape ridge;
   addGrid(ridge, 110, 5, [&](float s, float t) {
-    const float azimuth = kPi * (0.5f - s) * 1.1f;  // from north to south: faces the middle
+    const float azimuth = glm::pi<float>() * (0.5f - s) * 1.1f;  // from north to south: faces the middle
     const float tall = low + (high - low) * (0.5f + 0.5f * fractalNoise({6 * s, 0, 0}, 5, seed));
     return glm::vec3(kHalfLength + (distance + 3.5f * t) * std::cos(azimuth),
                      (distance + 3.5f * t) * std::sin(azimuth), kLawn - 0.2f + tall * t);
@@ -190,7 +190,7 @@ void addTerrace(Model& model, const Materials& materials) {
 void addGarden(Model& model, const Materials& materials) {
   Shape lawn, path;
   addGrid(lawn, 10, 48, [](float s, float t) {
-    const float azimuth = kPi * (t - 0.5f) * 1.1f, distance = 4 + 42 * s;
+    const float azimuth = glm::pi<float>() * (t - 0.5f) * 1.1f, distance = 4 + 42 * s;
     return glm::vec3(kHalfLength + distance * std::cos(azimuth), distance * std::sin(azimuth), kLawn);
   });
   for (std::size_t i = 0; i < lawn.uv.size(); ++i)

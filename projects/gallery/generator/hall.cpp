@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <glm/gtc/constants.hpp>
 #include <vector>
 
 #include "projects/gallery/generator/gallery.h"
@@ -11,7 +11,6 @@
 namespace acentric::gallery {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kBorder = 0.3f;  // dark band along the walls
 
 const Opening kDoor{0, kDoorHalf, 0, kDoorSpring, true};
@@ -135,12 +134,13 @@ void addFan(Shape& out, const WallSide& side, const Opening& o, int rays, float 
     return side.at(o.centre + radius * std::cos(angle), o.head + radius * std::sin(angle), -depth);
   };
   for (int i = 1; i < rays; ++i) {
-    const float angle = kPi * static_cast<float>(i) / static_cast<float>(rays);
+    const float angle = glm::pi<float>() * static_cast<float>(i) / static_cast<float>(rays);
     const std::array<glm::vec3, 2> ends{at(angle, 0.3f * o.half), at(angle, o.half)};
     out.append(tube(ends, thick, 6));
   }
   std::vector<glm::vec3> ring;
-  for (int i = 0; i <= 20; ++i) ring.push_back(at(kPi * static_cast<float>(i) / 20, 0.3f * o.half));
+  for (int i = 0; i <= 20; ++i)
+    ring.push_back(at(glm::pi<float>() * static_cast<float>(i) / 20, 0.3f * o.half));
   out.append(tube(ring, thick, 6));
   const std::array<glm::vec3, 2> sill{side.at(o.centre - o.half, o.head, -depth),
                                       side.at(o.centre + o.half, o.head, -depth)};

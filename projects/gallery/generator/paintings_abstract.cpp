@@ -9,11 +9,6 @@
 namespace acentric::gallery {
 namespace {
 
-float smooth(float low, float high, float v) {
-  const float t = std::clamp((v - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 /// Paper or primed linen: a light ground with some tooth.
 void prime(Canvas& canvas, const glm::vec3& tint, std::uint32_t seed) {
   canvas.fill([&](const glm::vec2& p) {
@@ -52,7 +47,7 @@ Canvas paintFields(int width, int height, std::uint32_t seed) {
       const float side = std::min(p.x, canvas.aspect() - p.x) - 0.06f;
       const float inside = std::min({side, p.y - f.top, f.bottom - p.y}) + wobble;
       const float depth = 0.85f + 0.22f * fractalNoise({p.x * 3, p.y * 7, f.top}, 5, seed + 2U);
-      return glm::vec4(f.tint * depth, 0.94f * smooth(-0.012f, 0.03f, inside));
+      return glm::vec4(f.tint * depth, 0.94f * glm::smoothstep(-0.012f, 0.03f, inside));
     });
   return canvas;
 }
@@ -209,8 +204,9 @@ Canvas paintStillLife(int width, int height, std::uint32_t seed) {
                        (1 - std::abs(across)) * half * static_cast<float>(height) + 0.5f);
     });
   };
-  body({0.30f * w, 0.74f}, 0.52f, colour(0x2f4f3e), 0.35f,
-       [](float up) { return up < 0.55f ? 0.085f : glm::mix(0.085f, 0.026f, smooth(0.55f, 0.72f, up)); });
+  body({0.30f * w, 0.74f}, 0.52f, colour(0x2f4f3e), 0.35f, [](float up) {
+    return up < 0.55f ? 0.085f : glm::mix(0.085f, 0.026f, glm::smoothstep(0.55f, 0.72f, up));
+  });
   body({0.62f * w, 0.78f}, 0.17f, colour(0x4d78a6), 0.25f,
        [](float up) { return 0.07f + 0.13f * std::sqrt(up); });
   const auto orange = [&](const glm::vec2& centre, float radius, const glm::vec3& tint) {

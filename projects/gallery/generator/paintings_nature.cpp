@@ -8,11 +8,6 @@
 namespace acentric::gallery {
 namespace {
 
-float smooth(float low, float high, float v) {
-  const float t = std::clamp((v - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 /// Short strokes of a field of colour: what makes it look brushed. `turnAt` is the direction in radians.
 template <class ColourAt, class TurnAt>
 void brush(Canvas& canvas, Random& random, int count, float length, float width, const ColourAt& colourAt,
@@ -37,7 +32,7 @@ void varnish(Canvas& canvas, std::uint32_t seed) {
       const float grain = 0.05f * fractalNoise({fx * 0.03f, fy * 0.22f, 0}, 3, seed);
       const float rimX = std::min(fx, static_cast<float>(canvas.width() - 1) - fx);
       const float rimY = std::min(fy, static_cast<float>(canvas.height() - 1) - fy);
-      const float rim = 0.75f + 0.25f * smooth(0, 22, std::min(rimX, rimY));
+      const float rim = 0.75f + 0.25f * glm::smoothstep(0.0f, 22.0f, std::min(rimX, rimY));
       const glm::vec3 warm(1.02f, 1.0f, 0.95f);
       canvas.at(x, y) *= warm * (1 + weave + grain) * rim;
     }
@@ -52,7 +47,8 @@ Canvas paintMountains(int width, int height, std::uint32_t seed) {
               : std::vector{colour(0x3c4f76), colour(0x8a6f93), colour(0xe39a7b), colour(0xf7d08a)};
   const auto skyAt = [&](const glm::vec2& p) {
     const float cloud = fractalNoise({p.x * 2.2f, p.y * 9, 0.3f}, 5, seed);
-    return glm::mix(gradient(sky, p.y * 1.75f), colour(0xfbe3c0), 0.45f * smooth(0.05f, 0.5f, cloud));
+    return glm::mix(gradient(sky, p.y * 1.75f), colour(0xfbe3c0),
+                    0.45f * glm::smoothstep(0.05f, 0.5f, cloud));
   };
   canvas.fill(skyAt);
   Random random(seed);
@@ -73,7 +69,7 @@ Canvas paintMountains(int width, int height, std::uint32_t seed) {
       const float below = p.y - ridge(p.x);
       const float light = 0.12f * fractalNoise({p.x * 14, p.y * 22, near}, 4, seed + 3U);
       const glm::vec3 mist = glm::mix(glm::mix(far, close, std::sqrt(near)), haze,
-                                      0.5f * smooth(0.0f, 0.22f, below) * (1 - near));
+                                      0.5f * glm::smoothstep(0.0f, 0.22f, below) * (1 - near));
       return glm::vec4(mist * (1 + light), below * static_cast<float>(height) + 0.5f);
     });
   }
@@ -99,12 +95,14 @@ Canvas paintSea(int width, int height, std::uint32_t seed) {
       const float cloud = fractalNoise({p.x * 3, p.y * 14 - p.x, 0.1f}, 5, seed);
       const glm::vec3 base = gradient(sky, p.y / horizon);
       const float glow = std::exp(-9 * glm::length(p - sun));
-      return glm::mix(glm::mix(base, cloudTint, 0.5f * smooth(0.1f, 0.45f, cloud)), colour(0xfff0c0), glow);
+      return glm::mix(glm::mix(base, cloudTint, 0.5f * glm::smoothstep(0.1f, 0.45f, cloud)), colour(0xfff0c0),
+                      glow);
     }
     const float depth = (p.y - horizon) / (1 - horizon);
     const float wave =
         fractalNoise({p.x * (14 - 9 * depth), (p.y - horizon) * (90 - 62 * depth), 0.9f}, 4, seed + 5U);
-    const float track = std::exp(-std::abs(p.x - sun.x) * (12 - 7 * depth)) * smooth(-0.15f, 0.35f, wave);
+    const float track =
+        std::exp(-std::abs(p.x - sun.x) * (12 - 7 * depth)) * glm::smoothstep(-0.15f, 0.35f, wave);
     const glm::vec3 water = gradient(sea, depth) * (1 + 0.45f * wave);
     return glm::mix(water, gleam, std::min(1.0f, 1.1f * track));
   };
@@ -135,7 +133,7 @@ Canvas paintBirches(int width, int height, std::uint32_t seed) {
     const float leaf = fractalNoise({p.x * 5, p.y * 5, 0}, 5, seed);
     const glm::vec3 leaves = gradient(
         {colour(0x6b3d1e), colour(0xc7771f), colour(0xe9b13c), colour(0xf3d98b)}, 0.5f + 0.8f * leaf);
-    return glm::mix(leaves, colour(0x3d4a2a), smooth(0.72f, 0.95f, p.y + 0.06f * leaf));
+    return glm::mix(leaves, colour(0x3d4a2a), glm::smoothstep(0.72f, 0.95f, p.y + 0.06f * leaf));
   };
   canvas.fill(ground);
   Random random(seed);
@@ -152,9 +150,9 @@ Canvas paintBirches(int width, int height, std::uint32_t seed) {
       const float across = (p.x - centre) / trunk;
       if (p.y > foot || std::abs(across) > 0.6f) return glm::vec4(0);
       const float bark = fractalNoise({across * 1.2f, p.y * 38, 0}, 3, s + 1U);
-      const float shade = 1 - 0.55f * smooth(-0.1f, 0.5f, across);
+      const float shade = 1 - 0.55f * glm::smoothstep(-0.1f, 0.5f, across);
       const glm::vec3 white = glm::mix(colour(0xb9b3a2), colour(0xf3eee0), near);
-      const glm::vec3 tint = glm::mix(white, colour(0x2b2622), smooth(0.28f, 0.42f, bark)) * shade;
+      const glm::vec3 tint = glm::mix(white, colour(0x2b2622), glm::smoothstep(0.28f, 0.42f, bark)) * shade;
       return glm::vec4(tint, (0.5f - std::abs(across)) * trunk * static_cast<float>(height) + 0.5f);
     });
   }
@@ -175,7 +173,7 @@ Canvas paintMeadow(int width, int height, std::uint32_t seed) {
     if (p.y < hill) {
       const float cloud = fractalNoise({p.x * 2.5f, p.y * 6, 0.4f}, 5, seed);
       return glm::mix(gradient({colour(0x5f95c4), colour(0xb7d3df)}, p.y / horizon), colour(0xfdf6e8),
-                      smooth(0.0f, 0.35f, cloud));
+                      glm::smoothstep(0.0f, 0.35f, cloud));
     }
     const float depth = (p.y - hill) / (1 - hill);
     const float patch = fractalNoise({p.x * 7, p.y * 16, 0}, 4, seed + 2U);
@@ -216,7 +214,7 @@ Canvas paintNightSky(int width, int height, std::uint32_t seed) {
     for (const glm::vec3& star : stars) {
       const float d = glm::length(p - glm::vec2(star.x * canvas.aspect() / 1.25f, star.y)) / star.z;
       tint = glm::mix(tint, gradient({colour(0xfff3b8), colour(0xf2c14e), colour(0x7ea6ad)}, d * 0.8f),
-                      smooth(1.5f, 0.25f, d));
+                      glm::smoothstep(1.5f, 0.25f, d));
     }
     return tint;
   };
@@ -224,7 +222,7 @@ Canvas paintNightSky(int width, int height, std::uint32_t seed) {
     float turn = 1.6f * noise({p * 2.0f, 0.5f}, seed + 4U);
     for (const glm::vec3& star : stars) {
       const glm::vec2 d = p - glm::vec2(star.x * canvas.aspect() / 1.25f, star.y);
-      const float weight = smooth(2.2f, 0.6f, glm::length(d) / star.z);
+      const float weight = glm::smoothstep(2.2f, 0.6f, glm::length(d) / star.z);
       turn = glm::mix(turn, std::atan2(d.y, d.x) + 1.5708f, weight);
     }
     return turn;
@@ -235,9 +233,9 @@ Canvas paintNightSky(int width, int height, std::uint32_t seed) {
   canvas.over([&](const glm::vec2& p) {
     const float ridge = 0.76f - 0.10f * fractalNoise({p.x * 1.7f, 0, 0}, 4, seed + 8U);
     const float stripe = 0.25f * noise({p.x * 6 + p.y * 9, p.y * 40, 0}, seed);
-    return glm::vec4(
-        glm::mix(colour(0x1d3557), colour(0x0d1b2a), smooth(0.0f, 0.25f, p.y - ridge)) * (1 + stripe),
-        (p.y - ridge) * static_cast<float>(height));
+    return glm::vec4(glm::mix(colour(0x1d3557), colour(0x0d1b2a), glm::smoothstep(0.0f, 0.25f, p.y - ridge)) *
+                         (1 + stripe),
+                     (p.y - ridge) * static_cast<float>(height));
   });
   for (int house = 0; house < 16; ++house) {
     const glm::vec2 p(random.between(0.1f, canvas.aspect() - 0.1f), random.between(0.85f, 0.95f));

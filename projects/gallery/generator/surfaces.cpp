@@ -11,11 +11,6 @@ namespace {
 
 constexpr int kJpegQuality = 90;
 
-float smooth(float low, float high, float v) {
-  const float t = std::clamp((v - low) / (high - low), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
 /// Where a point of a field of square tiles is: which tile, how far from its joint, how far from its nearest
 /// corner.
 struct TilePlace {
@@ -47,13 +42,14 @@ Canvas floorPicture(int size) {
     const float cloud = fractalNoise(q + away, 5, kSeed, 8);
     const float vein = 1 - std::abs(fractalNoise(q * 2.0f + 2.0f * away, 4, kSeed + 1U, 16));
     if (at.toCorner < kInset) {
-      const glm::vec3 dark = glm::mix(colour(0x27332f), colour(0x4a5a52), smooth(0.0f, 0.6f, cloud + 0.3f));
+      const glm::vec3 dark =
+          glm::mix(colour(0x27332f), colour(0x4a5a52), glm::smoothstep(0.0f, 0.6f, cloud + 0.3f));
       return at.toCorner > kInset - 1.4f * kJoint ? colour(0x8d8471) : dark;
     }
     if (at.toJoint < kJoint) return colour(0x8d8471);
     const glm::vec3 stone =
         gradient({colour(0xb99f72), colour(0xcfb78a), colour(0xe0cca3)}, 0.5f + 0.75f * cloud);
-    const glm::vec3 veined = glm::mix(stone, colour(0xa18c6b), 0.35f * smooth(0.90f, 1.0f, vein));
+    const glm::vec3 veined = glm::mix(stone, colour(0xa18c6b), 0.35f * glm::smoothstep(0.90f, 1.0f, vein));
     return veined * (0.9f + 0.18f * own) * (1 + 0.04f * noise(q * 16.0f, kSeed, 128));
   });
   return canvas;
@@ -66,7 +62,7 @@ std::vector<std::byte> floorRelief(int size, float metres) {
         tilePlace(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) * scale);
     const float fromInset = std::abs(at.toCorner - kInset) * 0.7f;
     const float edge = at.toCorner < kInset ? fromInset : std::min(at.toJoint, fromInset);
-    return 0.0025f * smooth(0.0f, 0.012f, edge);
+    return 0.0025f * glm::smoothstep(0.0f, 0.012f, edge);
   });
 }
 
@@ -88,7 +84,8 @@ Canvas marblePicture(int size, const glm::vec3& dark, const glm::vec3& light, co
     const float bend = fractalNoise(q, 4, seed, 4);
     const float cloud = fractalNoise(q * 2.0f + glm::vec3(0, 0, bend), 5, seed + 1U, 8);
     const float line = 1 - std::abs(fractalNoise(q * 2.0f + glm::vec3(0, 0, 1.5f * bend), 4, seed + 2U, 8));
-    return glm::mix(glm::mix(dark, light, 0.5f + 0.6f * cloud), vein, 0.55f * smooth(0.93f, 1.0f, line));
+    return glm::mix(glm::mix(dark, light, 0.5f + 0.6f * cloud), vein,
+                    0.55f * glm::smoothstep(0.93f, 1.0f, line));
   });
   return canvas;
 }
@@ -146,12 +143,13 @@ Canvas leafPicture(int width, int height) {
           0.96f *
           std::pow(std::max(0.0f, std::sin(3.14159265f * std::pow(std::clamp(up, 0.0f, 1.0f), 0.72f))), 0.8f);
       const float vein = std::abs(std::fmod(11 * (up - 0.55f * rib) + 11.0f, 1.0f) - 0.5f) * 2;
-      const float slit = smooth(0.45f, 1.0f, rib / std::max(half, 1e-3f)) * smooth(0.75f, 0.95f, vein) * 1.2f;
+      const float slit = glm::smoothstep(0.45f, 1.0f, rib / std::max(half, 1e-3f)) *
+                         glm::smoothstep(0.75f, 0.95f, vein) * 1.2f;
       const bool stem = up < 0.12f && rib < 0.05f;
-      const float coverage = stem ? 1.0f : smooth(-0.03f, 0.03f, half - rib - slit * 0.45f);
+      const float coverage = stem ? 1.0f : glm::smoothstep(-0.03f, 0.03f, half - rib - slit * 0.45f);
       glm::vec3 tint = gradient({colour(0x1f4a2a), colour(0x2f6b37), colour(0x5b8f45)}, 0.25f + 0.5f * up);
-      tint *= 0.85f + 0.3f * smooth(0.0f, 0.5f, 1 - vein);
-      tint = glm::mix(tint, colour(0xa9c07a), smooth(0.055f, 0.02f, rib));
+      tint *= 0.85f + 0.3f * glm::smoothstep(0.0f, 0.5f, 1 - vein);
+      tint = glm::mix(tint, colour(0xa9c07a), glm::smoothstep(0.055f, 0.02f, rib));
       canvas.at(x, y) = tint;
       canvas.alphaAt(x, y) = coverage;
     }

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <glm/gtc/constants.hpp>
 #include <vector>
 
 namespace acentric::gallery {
 namespace {
 
 constexpr int kArchSegments = 28;
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Height of the opening's top at a distance from its middle.
 float topAt(const Opening& o, float fromCentre) {
@@ -23,7 +22,7 @@ std::vector<float> cutsOf(const Opening& o) {
   const int count = o.arched ? kArchSegments : 1;
   for (int i = 0; i <= count; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(count);
-    cuts.push_back(o.centre - o.half * (o.arched ? std::cos(kPi * t) : 1 - 2 * t));
+    cuts.push_back(o.centre - o.half * (o.arched ? std::cos(glm::pi<float>() * t) : 1 - 2 * t));
   }
   cuts.front() = o.centre - o.half;
   cuts.back() = o.centre + o.half;
@@ -111,7 +110,7 @@ void addSurround(Shape& shape, const WallSide& side, const Opening& o, std::span
   if (o.arched) {
     runs.emplace_back();
     for (int i = 0; i <= kArchSegments; ++i) {
-      const float angle = kPi * (1 - static_cast<float>(i) / kArchSegments);
+      const float angle = glm::pi<float>() * (1 - static_cast<float>(i) / kArchSegments);
       const glm::vec2 away(std::cos(angle), std::sin(angle));
       runs.back().push_back({glm::vec2(o.centre, o.head) + o.half * away, away});
     }

@@ -1,4 +1,4 @@
-#include "engine/export/png.h"
+#include "engine/image/png.h"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -1,6 +1,6 @@
 /// Textures as PNG.
 
-#include "engine/export/png.h"
+#include "engine/image/png.h"
 
 #include <gtest/gtest.h>
 
