@@ -32,8 +32,7 @@ inline Json jsonOf(std::vector<std::string> arguments) {
 class SampleProject {
  public:
   /// `outline`: of where one walks, metres.
-  explicit SampleProject(const std::string& name,
-                         const std::string& outline = "-6.5,-4.5;6.5,-4.5;6.5,4.5;-6.5,4.5")
+  explicit SampleProject(const std::string& name, const std::string& outline = "-5,-3.5;5,-3.5;5,3.5;-5,3.5")
       : folder_(name) {
     std::filesystem::copy_file(ACENTRIC_SAMPLE_SCENE, folder_.path() / "gallery.glb");
     made_ = acentric({"new", (folder_.path() / "gallery.glb").string(), "-o", file(), "--samples-per-degree",
@@ -43,6 +42,10 @@ class SampleProject {
     project["bake"]["surfaceTexel"] = 0.5;
     project["bake"]["pruningLoss"] = 0.005;
     write(project);
+  }
+  /// A copy, with all that is baked.
+  SampleProject(const std::string& name, const SampleProject& of) : folder_(name), made_(of.made_) {
+    std::filesystem::copy(of.folder(), folder_.path(), std::filesystem::copy_options::recursive);
   }
   std::string file() const { return (folder_.path() / "gallery.acentric.json").string(); }
   std::filesystem::path captures() const { return folder_.path() / "gallery.captures"; }

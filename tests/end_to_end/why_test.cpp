@@ -55,17 +55,20 @@ std::string contentOf(const fs::path& path) {
 
 class BakeReasonsTest : public testing::Test {
  protected:
-  void SetUp() override {
-    ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
-    first = dryRun(file);
-    baked = bake(file);
+  static void SetUpTestSuite() {
+    made = new SampleProject("why", "-3,-3;3,-3;3,3;-3,3");
+    first = dryRun(made->file());
+    baked = bake(made->file());
   }
+  static void TearDownTestSuite() { delete made; }
+  void SetUp() override { ASSERT_EQ(made->made().exitCode, 0) << made->made().errors; }
   fs::path fileOf(int camera, const char* extension) const {
     return project.captures() / (baked["cameras"][std::size_t(camera)]["key"].get<std::string>() + extension);
   }
-  SampleProject project{"why", "-3,-3;3,-3;3,3;-3,3"};
+  static inline SampleProject* made = nullptr;
+  static inline Json first, baked;
+  SampleProject project{"why-copy", *made};  ///< each test changes its own
   std::string file = project.file();
-  Json first, baked;
 };
 
 TEST_F(BakeReasonsTest, NameWhatChanged) {
