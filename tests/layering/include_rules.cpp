@@ -23,7 +23,7 @@ struct Home {
 
 const std::vector<Home>& homes() {
   static const std::vector<Home> table{
-      {"OpenImageIO", {"OpenImageIO/"}, {"engine/image/"}},
+      {"OpenImageIO", {"OpenImageIO/"}, {"engine/image/files/"}},
       {"Cairo", {"cairo"}, {"engine/picture/"}},
       {"libpng", {"png.h"}, {"engine/image/"}},
       {"libwebp", {"webp/"}, {"engine/export/"}},

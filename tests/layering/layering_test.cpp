@@ -111,7 +111,7 @@ TEST_F(PlantedTree, SoundIncludesPass) {
   plant("engine/base/a.h", "#include <vector>\n");
   plant("engine/view/b.cpp",
         "#include \"engine/base/a.h\"\n#include \"engine/view/b.h\"\n#include <glm/glm.hpp>\n");
-  plant("engine/image/c.cpp", "#include <OpenImageIO/imageio.h>\n");
+  plant("engine/image/files/c.cpp", "#include <OpenImageIO/imageio.h>\n");
   plant("editor/panels/d.cpp",
         "#include <imgui.h>\n#include \"ui/window.h\"\n#include \"engine/view/b.h\"\n");
   plant("engine/base/e.cpp", "// #include \"ui/window.h\" is only talk\n");
