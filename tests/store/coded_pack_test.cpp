@@ -266,10 +266,9 @@ TEST_F(CodedPack, IsAsTrueAsItsQualityAndAsSmall) {
   ASSERT_TRUE(thereAndBack(capture, kQuality));
   const std::uintmax_t usual = fs::file_size(file());
   ASSERT_TRUE(thereAndBack(capture, kLosslessColours));
-  const std::uintmax_t lossless = fs::file_size(file());
-  ASSERT_TRUE(writeCapturePack(capture, kKey, file()));
-  EXPECT_LT(usual, lossless);
-  EXPECT_LT(lossless, fs::file_size(file()));
+  EXPECT_LT(usual, fs::file_size(file()));
+  EXPECT_LT(fs::file_size(file()), 15 * capture.sampleCount())
+      << "row, distance, colour and roles as they are";
 }
 
 TEST_F(CodedPack, IsTheSameBytesEachTime) {
@@ -278,17 +277,6 @@ TEST_F(CodedPack, IsTheSameBytesEachTime) {
   const auto first = readFile(file());
   ASSERT_TRUE(writeCodedPack(capture, kKey, file(), kQuality));
   EXPECT_EQ(*first, *readFile(file()));
-}
-
-TEST_F(CodedPack, StandsBesidePlainOnesInAStore) {
-  const auto store = CaptureStore::open(folder_ / "captures");
-  ASSERT_TRUE(store);
-  const Capture capture = smoothly(syntheticCapture({48, 40, true, true, 3, true}));
-  ASSERT_TRUE(writeCapturePack(capture, kKey, store->packFile(kKey))) << "as earlier versions did";
-  EXPECT_EQ(store->inspect(kKey, true)->condition, CaptureStore::Condition::sound);
-  EXPECT_EQ(*store->get(kKey), capture);
-  ASSERT_TRUE(store->put(kKey, capture, {}, kQuality));
-  EXPECT_EQ(withColoursOf(*store->get(kKey), capture), capture);
 }
 
 TEST_F(CodedPack, StoppedIsNotThere) {
