@@ -10,7 +10,7 @@
 #include "editor/session/session.h"
 #include "engine/base/priority.h"
 #include "engine/pipeline/bake_plan.h"
-#include "engine/pipeline/bake_to_size.h"
+#include "engine/pipeline/fit_resolution.h"
 #include "engine/pipeline/knobs.h"
 #include "ui/translate.h"
 

@@ -4,6 +4,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/bench/holes.h"
 #include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
@@ -11,7 +12,6 @@
 #include "engine/measure/source_colours.h"
 #include "engine/measure/statistics.h"
 #include "engine/picture/captioned_pictures.h"
-#include "engine/pipeline/bench_holes.h"
 
 namespace acentric::cli {
 namespace {

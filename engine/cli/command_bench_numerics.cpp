@@ -4,12 +4,12 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/bench/numerics.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/cli/path_frames.h"
 #include "engine/measure/svg_plot.h"
 #include "engine/measure/sweep_report.h"
-#include "engine/pipeline/bench_numerics.h"
 
 namespace acentric::cli {
 namespace {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "engine/bench/packed_walk.h"
 #include "engine/cli/commands.h"
-#include "engine/pipeline/packed_walk.h"
 
 namespace acentric::cli {
 

@@ -10,6 +10,7 @@
 
 #include "engine/base/physical_memory.h"
 #include "engine/base/stopwatch.h"
+#include "engine/bench/repeated_walk.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/machine.h"
 #include "engine/cli/stream_frames.h"
@@ -18,7 +19,6 @@
 #include "engine/picture/chart.h"
 #include "engine/picture/drawing.h"
 #include "engine/pipeline/paged_walk.h"
-#include "engine/pipeline/repeated_walk.h"
 #include "engine/pipeline/trial_folder.h"
 
 namespace acentric::cli {

@@ -33,6 +33,23 @@ std::pair<CLI::App*, Options&> add(CLI::App& app, Chosen& chosen, const char* na
   return {command, *options};
 }
 
+/// With its default, from `low` to `high`.
+template <class T, class Bound>
+CLI::Option* addNumber(CLI::App& command, const char* name, T& value, const std::string& description,
+                       Bound low, Bound high) {
+  return command.add_option(name, value, description)->check(CLI::Range(low, high))->capture_default_str();
+}
+/// With its default, one of these.
+template <class T>
+CLI::Option* addChoice(CLI::App& command, const char* name, T& value, const std::string& description,
+                       const std::vector<T>& choices) {
+  return command.add_option(name, value, description)->check(CLI::IsMember(choices))->capture_default_str();
+}
+void addSize(CLI::App& command, std::string& size);
+void addTruthSamples(CLI::App& command, int& samples);
+
+/// A project file, and its storey.
+void addProject(CLI::App& command, Chosen& chosen, std::filesystem::path& project, const char* otherwise);
 /// `otherwise`: what is meant where no storey is given.
 void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise);
 /// The project is taken as a sweep found worth having; its file is not changed.

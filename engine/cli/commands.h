@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/bench/bake.h"
+#include "engine/bench/representations.h"
 #include "engine/cli/command.h"
 #include "engine/cli/layout_edits.h"
-#include "engine/pipeline/bench_bake.h"
-#include "engine/pipeline/bench_representations.h"
 #include "engine/pipeline/collect_model.h"
 #include "engine/pipeline/new_project.h"
 
@@ -363,7 +363,7 @@ struct BenchNumericsOptions {
 };
 Result<Report> runBenchNumerics(const BenchNumericsOptions& options, const Common& common);
 
-/// Of tests/bench.
+/// Of tests/bench_functions.
 struct BenchFunctionsOptions {
   std::vector<std::string> names;  ///< empty = all that have what they need
   std::filesystem::path model, project;

@@ -20,28 +20,24 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
        "Folder to write: a new one, or one to replace that holds the same; of --to walk a file, with "
        "--single-file an HTML file")
       ->required();
-  c->add_option(
-       "--to", o.to,
-       "What to write: bundle, a folder for runtimes (engine/export/FORMAT.md); web, the same with a page "
-       "that walks through it (docs/web.md); walk, a bundle as one file that is read by ranges; gltf, a GLB "
-       "for each region (docs/gltf.md); 3dtiles, the same as 3D Tiles 1.1; exr, what each camera saw as "
-       "OpenEXR (engine/store/FORMAT.md); colmap, nerfstudio, seurat, ray-traced pictures with distances "
-       "and their cameras; panoramas, OpenEXR with distances")
-      ->check(CLI::IsMember(
-          {"bundle", "web", "walk", "gltf", "3dtiles", "exr", "colmap", "nerfstudio", "seurat", "panoramas"}))
-      ->capture_default_str();
+  addChoice(
+      *c, "--to", o.to,
+      "What to write: bundle, a folder for runtimes (engine/export/FORMAT.md); web, the same with a page "
+      "that walks through it (docs/web.md); walk, a bundle as one file that is read by ranges; gltf, a GLB "
+      "for each region (docs/gltf.md); 3dtiles, the same as 3D Tiles 1.1; exr, what each camera saw as "
+      "OpenEXR (engine/store/FORMAT.md); colmap, nerfstudio, seurat, ray-traced pictures with distances "
+      "and their cameras; panoramas, OpenEXR with distances",
+      {"bundle", "web", "walk", "gltf", "3dtiles", "exr", "colmap", "nerfstudio", "seurat", "panoramas"});
   c->add_option(
        "--colour-quality", o.colourQuality,
        "bundle, web and walk: how true captures' colours are, 0 to 99 as they are shown, 100 every bit; "
        "unless given, 92, or less where the project says so. Of WebP textures: the same by its own scale")
       ->check(CLI::Range(0, kLosslessColours));
-  c->add_option("--regions-per-page", o.regionsPerPage,
-                "walk: regions that a page of its index tells of; a viewer reads the pages that it comes to")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  c->add_option("--texture-size", o.texturePixels, "gltf and 3dtiles: most pixels a side of a texture")
-      ->check(CLI::Range(128, 16384))
-      ->capture_default_str();
+  addNumber(*c, "--regions-per-page", o.regionsPerPage,
+            "walk: regions that a page of its index tells of; a viewer reads the pages that it comes to", 1,
+            4096);
+  addNumber(*c, "--texture-size", o.texturePixels, "gltf and 3dtiles: most pixels a side of a texture", 128,
+            16384);
   c->add_option("--mesh-compression", o.meshCompression,
                 "gltf and 3dtiles: none, or meshopt, for programs that read EXT_meshopt_compression "
                 "(docs/gltf.md); unless given, none of gltf and meshopt of 3dtiles")
@@ -52,11 +48,9 @@ void addExportCommand(CLI::App& app, Chosen& chosen) {
       ->check(CLI::IsMember({"png", "webp"}));
   c->add_option("--region", o.region, "gltf, 3dtiles and pictures: this region alone")
       ->check(CLI::NonNegativeNumber);
-  c->add_option(
-       "--face-size", o.facePixels,
-       "colmap, nerfstudio, seurat: pixels a side of a cube's face; panoramas are four times as wide")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
+  addNumber(*c, "--face-size", o.facePixels,
+            "colmap, nerfstudio, seurat: pixels a side of a cube's face; panoramas are four times as wide",
+            16, 8192);
   c->add_flag("--single-file", o.singleFile, "Of --to web: everything in one HTML file, for small projects");
   c->add_flag("--allow-missing", o.allowMissing,
               "Write what there is though captures or light are not baked yet");

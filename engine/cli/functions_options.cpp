@@ -22,9 +22,7 @@ void addFunctionsCommand(CLI::App& bench, Chosen& chosen) {
   c->add_option("--regions", o.regions, "To count triangles of")->capture_default_str();
   c->add_option("--beside", o.beside,
                 "Folder of another build's programs: both run by turns, and figures are told beside its");
-  c->add_option("--rounds", o.rounds, "Of turns, with --beside")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  addNumber(*c, "--rounds", o.rounds, "Of turns, with --beside", 1, 1000);
 }
 
 }  // namespace acentric::cli

@@ -12,8 +12,7 @@ void addCheck(CLI::App& app, Chosen& chosen) {
                     "  acentric check kitchen.acentric.json\n"
                     "  acentric check kitchen.acentric.json --room 0.6 -o placement.svg --json",
                     runCheck);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_option("--room", o.cameraRoom, "Metres that a camera needs in all directions")
       ->capture_default_str();
   c->add_option("--push", o.mostPush, "How far a place that clears a camera is looked for, metres")
@@ -27,8 +26,7 @@ void addBudget(CLI::App& app, Chosen& chosen) {
                     "  acentric budget kitchen.acentric.json --max 200000 -o budget.svg\n"
                     "  acentric budget kitchen.acentric.json --json",
                     runBudget);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_option("--max", o.most, "Triangles that a region may have (default: the project's budget)")
       ->check(CLI::PositiveNumber);
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
@@ -40,12 +38,10 @@ void addFit(CLI::App& app, Chosen& chosen) {
                     "  acentric fit kitchen.acentric.json --max 200000 --min-cell 0.5 --simplify --apply\n"
                     "  acentric fit kitchen.acentric.json --max 200000 --split --merge -o split.svg",
                     runFit);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_option("--max", o.most, "Triangles that a region may have")->required()->check(CLI::PositiveNumber);
-  c->add_option("--min-cell", o.leastCell, "Smallest cells to try, or to split into, metres")
-      ->check(CLI::Range(kLeastCellSize, kLargestCellSize))
-      ->capture_default_str();
+  addNumber(*c, "--min-cell", o.leastCell, "Smallest cells to try, or to split into, metres", kLeastCellSize,
+            kLargestCellSize);
   auto* split = c->add_flag("--split", o.split,
                             "Keep the project's cells and split those that exceed the number (e and g only)");
   c->add_flag("--merge", o.merge, "With --split, undo splits whose whole keeps to the number")->needs(split);
@@ -55,9 +51,8 @@ void addFit(CLI::App& app, Chosen& chosen) {
       "--simplify", o.simplify,
       "Simplify the regions that exceed the number where no cells (then the project's are kept) or no "
       "splits prevent it");
-  c->add_option("--max-error", o.maxError, "Metres that simplified surfaces may lie from the scene's")
-      ->check(CLI::Range(1e-6, 10.0))
-      ->capture_default_str();
+  addNumber(*c, "--max-error", o.maxError, "Metres that simplified surfaces may lie from the scene's", 1e-6,
+            10.0);
   c->add_flag("--apply", o.apply, "Write the cells found, or the simplification, to the project file");
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }
@@ -71,26 +66,18 @@ void addCoverage(CLI::App& app, Chosen& chosen) {
       "  acentric coverage kitchen.acentric.json --pruning\n"
       "  acentric coverage kitchen.acentric.json --path tour.json --correlate --json",
       runCoverage);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_flag("--plan", o.plan, "Count the cameras that hold each point of the plan");
   c->add_flag("--surfaces", o.surfaces, "Judge points on the scene's surfaces (default)");
   c->add_flag("--pruning", o.pruning,
               "Tell what pruning loses of what random eyes see, and how many test eyes that takes");
   c->add_flag("--correlate", o.correlate,
               "Compare predicted holes with those of rendered frames, eye by eye (needs a bake)");
-  c->add_option("--points", o.points, "Points on the surfaces")
-      ->check(CLI::Range(1, 10000000))
-      ->capture_default_str();
-  c->add_option("--eyes", o.eyesPerRegion, "Places to stand that are tried in each region")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  c->add_option("--grid", o.grid, "Points of the plan along its longer side")
-      ->check(CLI::Range(1, 8192))
-      ->capture_default_str();
-  c->add_option("--reach", o.reach, "In the plan, only cameras within so many metres (0 = any distance)")
-      ->check(CLI::Range(0.0, 1e9))
-      ->capture_default_str();
+  addNumber(*c, "--points", o.points, "Points on the surfaces", 1, 10000000);
+  addNumber(*c, "--eyes", o.eyesPerRegion, "Places to stand that are tried in each region", 1, 1000);
+  addNumber(*c, "--grid", o.grid, "Points of the plan along its longer side", 1, 8192);
+  addNumber(*c, "--reach", o.reach, "In the plan, only cameras within so many metres (0 = any distance)", 0.0,
+            1e9);
   c->add_option("--path", o.path, "Camera path (JSON; default: random eyes)");
   c->add_option(
        "--frames", o.frames,
@@ -100,9 +87,7 @@ void addCoverage(CLI::App& app, Chosen& chosen) {
   c->add_option("--size", o.size,
                 "WIDTHxHEIGHT of the display (960x540), or of compared frames (640x360; "
                 "320x180 without a path)");
-  c->add_option("--renderer", o.renderer, "Renderer of compared frames")
-      ->check(CLI::IsMember(rendererNames()))
-      ->capture_default_str();
+  addChoice(*c, "--renderer", o.renderer, "Renderer of compared frames", rendererNames());
   c->add_option("--csv", o.csv, "File for every point's (or cell's, or frame's) figures");
   c->add_option("-o,--output", o.output, "Picture to write (.svg or .png)");
 }
@@ -113,12 +98,9 @@ void addEstimate(CLI::App& app, Chosen& chosen) {
                     "  acentric estimate kitchen.acentric.json --threads 2\n"
                     "  acentric estimate kitchen.acentric.json --effort 4 -o estimate.svg --json",
                     runEstimate);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "all of them");
-  c->add_option("--effort", o.effort,
-                "How much more or less to probe than usual: four times halves the error")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+  addProject(*c, chosen, o.project, "all of them");
+  addNumber(*c, "--effort", o.effort,
+            "How much more or less to probe than usual: four times halves the error", 0.0, 1000.0);
   c->add_option("-o,--output", o.output, "Picture of the plan to write (.svg or .png)");
 }
 

@@ -16,13 +16,9 @@ void addNumericsCommand(CLI::App& bench, Chosen& chosen) {
   addStoreyOption(*c, chosen, "where the walk begins");
   addPresetOption(*c, chosen);
   c->add_option("--path", o.path, "A path of the project, or a file (default: a tour)");
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--frames", o.frames, "Frames along the path, evenly chosen")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  c->add_option("--repeats", o.repeats, "Times that each way is timed")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  addSize(*c, o.size);
+  addNumber(*c, "--frames", o.frames, "Frames along the path, evenly chosen", 1, 10000);
+  addNumber(*c, "--repeats", o.repeats, "Times that each way is timed", 1, 1000);
   c->add_option("-o,--output", o.output, "Folder for numerics.json, numerics.csv and numerics.html");
 }
 

@@ -35,27 +35,21 @@ void addNew(CLI::App& app, Chosen& chosen) {
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--outline", o.outline, "auto, or corners x,y;x,y;... in metres (loops separated by /)")
       ->capture_default_str();
-  c->add_option(
-       "--max-cameras", o.mostCameras,
-       "Lay out only as much of the ground as so many cameras serve, where an outline is found (0 = no "
-       "limit)")
-      ->check(CLI::Range(0, kMostFirstCameras))
-      ->capture_default_str();
-  c->add_option(
-       "--bake-minutes", o.bakeMinutes,
-       "Likewise, as much as this machine is predicted to bake in so many minutes; a room is laid out "
-       "as a whole (0 = no limit)")
-      ->check(CLI::Range(0.0, kMostBakeMinutes))
-      ->capture_default_str();
+  addNumber(*c, "--max-cameras", o.mostCameras,
+            "Lay out only as much of the ground as so many cameras serve, where an outline is found (0 = no "
+            "limit)",
+            0, kMostFirstCameras);
+  addNumber(*c, "--bake-minutes", o.bakeMinutes,
+            "Likewise, as much as this machine is predicted to bake in so many minutes; a room is laid out "
+            "as a whole (0 = no limit)",
+            0.0, kMostBakeMinutes);
   c->add_option("--around", o.around,
                 "Where that part begins: x,y in metres (default: where most floor is enclosed)");
   c->add_option("--samples-per-degree", o.samplesPerDegree,
                 fmt::format("Resolution of the captures (default {})", BakeSettings{}.samplesPerDegree))
       ->check(CLI::Range(0.5, 64.0));
   c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of the model (default: guessed, and said)");
-  c->add_option("--up", o.up, "Up axis of the model: guess, y or z")
-      ->check(CLI::IsMember({"guess", "y", "z"}))
-      ->capture_default_str();
+  addChoice(*c, "--up", o.up, "Up axis of the model: guess, y or z", {"guess", "y", "z"});
   addLight(*c, o.light)->capture_default_str();
   c->add_option("--storey", o.storey,
                 "Which storey: its number, its height with the unit (3.2m), all, or list to see them "
@@ -102,8 +96,7 @@ void addStart(CLI::App& app, Chosen& chosen) {
                     "  acentric start kitchen.acentric.json --at 2.5,1 --yaw 90\n"
                     "  acentric start kitchen.acentric.json --find",
                     runStart);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   auto* const at = c->add_option("--at", o.at, "Place on the plan: x,y in metres");
   auto* const yaw = c->add_option("--yaw", o.yawDegrees, "Degrees, 0 along +x, 90 along +y")
                         ->check(CLI::Range(-360.0, 360.0));
@@ -117,8 +110,7 @@ void addInfo(CLI::App& app, Chosen& chosen) {
       add(app, chosen, "info", "Show scene, effects and why they are on, layout, local triangles, bake state",
           "  acentric info kitchen.acentric.json\n  acentric info kitchen.acentric.json --regions --json",
           runInfo);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_flag("--regions", o.regions, "List every region with its local triangles");
 }
 
@@ -134,17 +126,14 @@ void addStoreys(CLI::App& app, Chosen& chosen) {
   c->add_option("--eye-height", o.eyeHeight, "Metres above the floor")->capture_default_str();
   c->add_option("--step-height", o.stepHeight, "Metres that a foot climbs at once")->capture_default_str();
   c->add_option("--grid", o.gridStep, "Metres between the places looked at (default: from the scene's size)");
-  c->add_option("--least-share", o.leastShare, "Leave out planes of less than this share of the largest one")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  addNumber(*c, "--least-share", o.leastShare, "Leave out planes of less than this share of the largest one",
+            0.0, 1.0);
   c->add_option("--least-area", o.leastArea, "Leave out planes of fewer square metres")
       ->capture_default_str();
   c->add_flag("--ignore-sides", o.ignoreSides,
               "Take surfaces for floor whichever way they face, and no place for the inside of a solid");
   c->add_option("--metres-per-unit", o.metresPerUnit, "Scale of a model (default: guessed)");
-  c->add_option("--up", o.up, "Up axis of a model: guess, y or z")
-      ->check(CLI::IsMember({"guess", "y", "z"}))
-      ->capture_default_str();
+  addChoice(*c, "--up", o.up, "Up axis of a model: guess, y or z", {"guess", "y", "z"});
   addLight(*c, o.light)->capture_default_str();
   c->add_option("--add", o.add,
                 "Lay cells on a plane found: its number here, its height (3.2m), or all that have none yet");
@@ -163,8 +152,7 @@ void addLayout(CLI::App& app, Chosen& chosen) {
                     "  acentric layout kitchen.acentric.json --config e --cell 1.5 --rotate 30 --json\n"
                     "  acentric layout kitchen.acentric.json --remove 1,0,0 --free 2,3,0.8,0,60,ccw --apply",
                     runLayout);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_option("--config", o.edits.configuration, "Configuration a to g");
   c->add_option("--cell", o.edits.cellSize, "Edge length of the polygons in metres")
       ->check(CLI::Range(kLeastCellSize, kLargestCellSize));
@@ -203,8 +191,7 @@ void addBake(CLI::App& app, Chosen& chosen) {
                     "  acentric bake kitchen.acentric.json --along tour.json\n"
                     "  acentric bake kitchen.acentric.json --shard 2/8",
                     runBake);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "all of them");
+  addProject(*c, chosen, o.project, "all of them");
   addPresetOption(*c, chosen);
   auto* only = c->add_option("--only", o.only, "Only these cameras (numbers as in --dry-run)");
   only->delimiter(',');
@@ -219,15 +206,13 @@ void addBake(CLI::App& app, Chosen& chosen) {
   c->add_option("--shard", o.shard,
                 "Bake a share: 2/8 is the second of eight, which may run side by side on machines that share "
                 "the project's folder");
-  c->add_option("--light", o.light, "Light on local geometry: with the captures, without it, or only it")
-      ->check(CLI::IsMember({"with", "without", "only"}))
-      ->capture_default_str();
+  addChoice(*c, "--light", o.light, "Light on local geometry: with the captures, without it, or only it",
+            {"with", "without", "only"});
   c->add_flag("--list", o.list, "Tell of each camera: samples by layer, surfaces dropped, bytes");
   c->add_flag("--dry-run", o.dryRun, "List what would be baked");
   c->add_flag("--prune", o.prune, "Delete captures that the project no longer uses");
-  c->add_option("--quality", o.quality, "preview, draft or final: the walk shows the best of each camera")
-      ->check(CLI::IsMember({"preview", "draft", "final"}))
-      ->capture_default_str();
+  addChoice(*c, "--quality", o.quality, "preview, draft or final: the walk shows the best of each camera",
+            {"preview", "draft", "final"});
   c->add_flag("--coarse-first", o.coarseFirst,
               "Begin with all of the first view, then a preview of every camera, then the rest");
   c->add_option("--memory", o.memoryMegabytes, "Megabytes that what is baked may take until it is written")
@@ -250,9 +235,8 @@ void addFarm(CLI::App& app, Chosen& chosen) {
   addStoreyOption(*c, chosen, "all of them");
   c->add_option("--nodes", o.nodes, "How many nodes bake at once")->check(CLI::Range(1, 100'000));
   c->add_option("--partition", o.partition, "Partition of the cluster (default: the cluster's)");
-  c->add_option("--task-seconds", o.taskSeconds, "A task's cameras are worth at least so many seconds")
-      ->check(CLI::Range(1.0, 1e6))
-      ->capture_default_str();
+  addNumber(*c, "--task-seconds", o.taskSeconds, "A task's cameras are worth at least so many seconds", 1.0,
+            1e6);
   c->add_option("-o,--out", o.output,
                 "Folder of the scripts and logs, shared too (default: beside the project)");
   c->add_option("--program", o.program, "acentric on the nodes (default: where this one is)");
@@ -264,11 +248,23 @@ void addValidate(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(app, chosen, "validate",
                     "Check a project, its scene and every capture and simplified region on disk",
                     "  acentric validate kitchen.acentric.json --json", runValidate);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "all of them");
+  addProject(*c, chosen, o.project, "all of them");
 }
 
 }  // namespace
+
+void addSize(CLI::App& command, std::string& size) {
+  command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+}
+
+void addTruthSamples(CLI::App& command, int& samples) {
+  addChoice(command, "--truth-samples", samples, "Rays per pixel of the truth: 1, 4, 9 or 16", {1, 4, 9, 16});
+}
+
+void addProject(CLI::App& command, Chosen& chosen, std::filesystem::path& project, const char* otherwise) {
+  command.add_option("project", project, "Project file")->required();
+  addStoreyOption(command, chosen, otherwise);
+}
 
 void addStoreyOption(CLI::App& command, Chosen& chosen, const char* otherwise) {
   command.add_option(

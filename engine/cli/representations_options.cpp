@@ -15,8 +15,7 @@ void addRepresentationsCommand(CLI::App& bench, Chosen& chosen) {
       "  acentric bench representations kitchen.acentric.json --only grid,mesh --poses 100 --path walk.json "
       "-o compared",
       runBenchRepresentations);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_option("-o,--output", o.output, "Folder to work in; what an earlier run baked there is used again")
       ->required();
   c->add_option("--path", o.paths, "A path of the project, or a file, measured besides; may be repeated");
@@ -29,18 +28,13 @@ void addRepresentationsCommand(CLI::App& bench, Chosen& chosen) {
                 "On the grid, and where most is unseen; half as many head boxes (default: as many as the "
                 "sectors of the project's cameras add up to)")
       ->check(CLI::Range(1, 100000));
-  c->add_option("--poses", o.bench.poses, "Random eyes in the walkable area")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  addNumber(*c, "--poses", o.bench.poses, "Random eyes in the walkable area", 1, 100000);
   c->add_option("--seed", o.bench.seed, "Of the random eyes")->capture_default_str();
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  addSize(*c, o.size);
   c->add_option("--fov", o.bench.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
-  c->add_option("--truth-samples", o.bench.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
-      ->check(CLI::IsMember({1, 4, 9, 16}))
-      ->capture_default_str();
-  c->add_option("--tolerance", o.bench.tolerance, "Share by which bytes may differ from the project's")
-      ->check(CLI::Range(0.001, 1.0))
-      ->capture_default_str();
+  addTruthSamples(*c, o.bench.truthSamples);
+  addNumber(*c, "--tolerance", o.bench.tolerance, "Share by which bytes may differ from the project's", 0.001,
+            1.0);
 }
 
 }  // namespace acentric::cli

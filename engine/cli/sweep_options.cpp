@@ -9,14 +9,10 @@ namespace {
 /// Which frames settings are compared in, and how.
 template <class Options>
 void addFrames(CLI::App& command, Options& o, const char* repeats) {
-  command.add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  command.add_option("--frames", o.frames, "Frames along the path, evenly chosen")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  command.add_option("--repeats", o.repeats, repeats)->check(CLI::Range(1, 1000))->capture_default_str();
-  command.add_option("--truth-samples", o.truthSamples, "Rays per pixel of the truth: 1, 4, 9 or 16")
-      ->check(CLI::IsMember({1, 4, 9, 16}))
-      ->capture_default_str();
+  addSize(command, o.size);
+  addNumber(command, "--frames", o.frames, "Frames along the path, evenly chosen", 1, 10000);
+  addNumber(command, "--repeats", o.repeats, repeats, 1, 1000);
+  addTruthSamples(command, o.truthSamples);
 }
 
 void addSweep(CLI::App& app, Chosen& chosen) {
@@ -37,15 +33,12 @@ void addSweep(CLI::App& app, Chosen& chosen) {
                 "the usual ones: layers=1/2 (default: all that --list-knobs names)")
       ->delimiter(',');
   c->add_flag("--list-knobs", o.list, "Name what can be changed");
-  c->add_option(
-       "--budget-minutes", o.budgetMinutes,
-       "Minutes that it may take; what would not fit is skipped, and said to be. A later call goes on")
-      ->check(CLI::Range(0.01, 1e5))
-      ->capture_default_str();
+  addNumber(*c, "--budget-minutes", o.budgetMinutes,
+            "Minutes that it may take; what would not fit is skipped, and said to be. A later call goes on",
+            0.01, 1e5);
   addFrames(*c, o, "Times that frames and loading are timed");
-  c->add_option("--crossings", o.crossings, "Changes of region that flicker is measured at (0 = all)")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
+  addNumber(*c, "--crossings", o.crossings, "Changes of region that flicker is measured at (0 = all)", 0,
+            1000000);
   c->add_flag("!--no-search", o.search, "Only one change at a time, no combinations");
   c->add_flag("!--no-numerics", o.numerics,
               "Leave out floats against doubles, exact against naive signs and bits of distances (`acentric "
@@ -78,9 +71,8 @@ void addPropose(CLI::App& app, Chosen& chosen) {
                 "What may be changed beside the samples per degree, as for `acentric sweep` (default: "
                 "configuration, cell size, near band, layers, colour quality, reconstruction)")
       ->delimiter(',');
-  c->add_option("--budget-minutes", o.budgetMinutes, "Minutes that it may take. A later call goes on")
-      ->check(CLI::Range(0.01, 1e5))
-      ->capture_default_str();
+  addNumber(*c, "--budget-minutes", o.budgetMinutes, "Minutes that it may take. A later call goes on", 0.01,
+            1e5);
   addFrames(*c, o, "Times that frames are timed");
   c->add_flag("--again", o.again, "Forget what was measured into the folder before");
   c->add_flag("--apply", o.apply, "Write the best to the project");

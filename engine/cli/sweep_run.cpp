@@ -6,11 +6,11 @@
 #include <set>
 
 #include "engine/base/stopwatch.h"
+#include "engine/bench/numerics.h"
 #include "engine/cli/bake_notice.h"
 #include "engine/cli/seam_report.h"
 #include "engine/measure/compare.h"
 #include "engine/pipeline/bake_plan.h"
-#include "engine/pipeline/bench_numerics.h"
 #include "engine/view/view_cameras.h"
 
 namespace acentric::cli {

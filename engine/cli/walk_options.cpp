@@ -26,16 +26,8 @@ void addLook(CLI::App& command, Look& look) {
       ->check(CLI::IsMember({"point", "splat", "patches"}));
 }
 
-void addTruthSamples(CLI::App& command, int& samples) {
-  command.add_option("--truth-samples", samples, "Rays per pixel of the truth: 1, 4, 9 or 16")
-      ->check(CLI::IsMember({1, 4, 9, 16}))
-      ->capture_default_str();
-}
-
 void addGain(CLI::App& command, int& gain) {
-  command.add_option("--gain", gain, "Factor by which differences are amplified")
-      ->check(CLI::Range(1, 255))
-      ->capture_default_str();
+  addNumber(command, "--gain", gain, "Factor by which differences are amplified", 1, 255);
 }
 
 void addMemory(CLI::App& command, Chosen& chosen) {
@@ -62,7 +54,7 @@ void addView(CLI::App& command, ViewChoice& view) {
       ->excludes(yaw)
       ->excludes(pitch)
       ->excludes(fov);
-  command.add_option("--size", view.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  addSize(command, view.size);
 }
 
 void addAsk(CLI::App& app, Chosen& chosen) {
@@ -71,8 +63,7 @@ void addAsk(CLI::App& app, Chosen& chosen) {
                     "  acentric ask kitchen.acentric.json --eye 1,2 --yaw 90 --pixel 480,270\n"
                     "  acentric ask kitchen.acentric.json --bookmark door --no-improvements --json",
                     runAsk);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "the one at the eye");
+  addProject(*c, chosen, o.project, "the one at the eye");
   addPresetOption(*c, chosen);
   addMemory(*c, chosen);
   addView(*c, o);
@@ -95,12 +86,10 @@ void addRender(CLI::App& app, Chosen& chosen) {
   addView(*c, o);
   addRenderer(*c, o.renderer, true);
   addLook(*c, o.look);
-  c->add_option(
-       "--mode", o.mode,
-       "What is shown: the picture, the ray-traced truth, their difference, both side by side, which "
-       "camera painted what, or the holes")
-      ->check(CLI::IsMember(pictureModeNames()))
-      ->capture_default_str();
+  addChoice(*c, "--mode", o.mode,
+            "What is shown: the picture, the ray-traced truth, their difference, both side by side, which "
+            "camera painted what, or the holes",
+            pictureModeNames());
   addTruthSamples(*c, o.truthSamples);
   addGain(*c, o.gain);
   c->add_option("-o,--output", o.output, "PNG to write")->required();
@@ -111,12 +100,9 @@ void addRender(CLI::App& app, Chosen& chosen) {
 void addTour(CLI::App& app, Chosen& chosen) {
   auto [c, o] = add(app, chosen, "tour", "Write a camera path through all regions",
                     "  acentric tour kitchen.acentric.json -o tour.json --frames 120", runTour);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_option("-o,--output", o.output, "Path file to write")->required();
-  c->add_option("--frames", o.frames, "Number of frames")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  addNumber(*c, "--frames", o.frames, "Number of frames", 1, 1000000);
 }
 
 void addWalk(CLI::App& app, Chosen& chosen) {
@@ -125,15 +111,14 @@ void addWalk(CLI::App& app, Chosen& chosen) {
           "  acentric walk kitchen.acentric.json --path tour.json -o frames\n"
           "  acentric walk kitchen.acentric.json --modes picture,truth,difference,sources -o frames",
           runWalk);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "those along the path");
+  addProject(*c, chosen, o.project, "those along the path");
   addPresetOption(*c, chosen);
   addMemory(*c, chosen);
   c->add_option("--path", o.path,
                 "One of the project's paths by its name, or a camera path (JSON) such as `acentric tour` "
                 "writes (default: a tour of 60 frames)");
   c->add_option("-o,--output", o.output, "Folder for the frames")->required();
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  addSize(*c, o.size);
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
   addRenderer(*c, o.renderer, true);
   addLook(*c, o.look);
@@ -154,14 +139,13 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
                     "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --images compare\n"
                     "  acentric measure kitchen.acentric.json --path tour.json --frames 20 --seams --json",
                     runMeasure);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "those along the path");
+  addProject(*c, chosen, o.project, "those along the path");
   addPresetOption(*c, chosen);
   addMemory(*c, chosen);
   c->add_option("--path", o.path, "A path of the project, or a file (default: a tour of 60 frames)");
   addRenderer(*c, o.renderer, false);
   addLook(*c, o.look);
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  addSize(*c, o.size);
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
   c->add_option("--frames", o.frames, "Only so many frames, evenly chosen (0 = all)")->capture_default_str();
   addTruthSamples(*c, o.truthSamples);
@@ -169,10 +153,8 @@ void addMeasure(CLI::App& app, Chosen& chosen) {
       "--seams", o.seams,
       "Also how visible the border of local geometry is, and how much the picture changes where the path "
       "goes from region to region");
-  c->add_option("--crossings", o.crossings,
-                "With --seams: only so many changes of region, evenly chosen (0 = all)")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
+  addNumber(*c, "--crossings", o.crossings,
+            "With --seams: only so many changes of region, evenly chosen (0 = all)", 0, 1000000);
   c->add_flag(
       "--attribution", o.attribution,
       "Also what the error comes from: holes, silhouettes, seams, metals and mirrors, local polygons, sky, "
@@ -195,13 +177,10 @@ void addFrameTiming(CLI::App& command, BenchOptions& options) {
       ->capture_default_str();
   addLook(command, options.look);
   command.add_option("--path", options.path, "A path of the project, or a file (default: a tour)");
-  command.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  command.add_option("--frames", options.frames, "Frames along the tour or the path")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command.add_option("--repeats", options.repeats, "Times each frame is rendered, after one warm-up")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  addSize(command, options.size);
+  addNumber(command, "--frames", options.frames, "Frames along the tour or the path", 1, 100000);
+  addNumber(command, "--repeats", options.repeats, "Times each frame is rendered, after one warm-up", 1,
+            1000);
 }
 
 void addBenchView(CLI::App& bench, Chosen& chosen) {
@@ -209,15 +188,12 @@ void addBenchView(CLI::App& bench, Chosen& chosen) {
                     "  acentric bench view kitchen.acentric.json --renderers list,zbuffer --json\n"
                     "  acentric bench view kitchen.acentric.json --renderers list,truth,polygons,gl-polygons",
                     runBench);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   addMemory(*c, chosen);
   addFrameTiming(*c, o);
   c->add_flag("--stream", o.stream,
               "Walk the path in real time with the first renderer while captures come and go");
-  c->add_option("--speed", o.metresPerSecond, "Of --stream, metres per second")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
+  addNumber(*c, "--speed", o.metresPerSecond, "Of --stream, metres per second", 0.01, 1000.0);
   c->add_flag("--wait-for-captures", o.waitForCaptures,
               "Of --stream with OpenGL: frames wait until the captures that they lack are on the graphics "
               "card");
@@ -252,44 +228,26 @@ void addBenchWalkGrowth(CLI::App& bench, Chosen& chosen) {
       ->check(CLI::Range(20, 4'000'000))
       ->capture_default_str();
   c->add_option("--config", o.configuration, "Configuration of the lattice, a to g")->capture_default_str();
-  c->add_option("--cell", o.cellSize, "Metres, edge of a cell")
-      ->check(CLI::Range(0.5, 50.0))
-      ->capture_default_str();
-  c->add_option("--samples-per-degree", o.samplesPerDegree, "Of the captures")
-      ->check(CLI::Range(0.5, 64.0))
-      ->capture_default_str();
-  c->add_option("--regions-per-page", o.regionsPerPage, "Of the index")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
+  addNumber(*c, "--cell", o.cellSize, "Metres, edge of a cell", 0.5, 50.0);
+  addNumber(*c, "--samples-per-degree", o.samplesPerDegree, "Of the captures", 0.5, 64.0);
+  addNumber(*c, "--regions-per-page", o.regionsPerPage, "Of the index", 1, 10000);
   addMemory(*c, chosen);
-  c->add_option("--renderer", o.renderer, "Which")
-      ->check(CLI::IsMember(renderers(false)))
-      ->capture_default_str();
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-  c->add_option("--frames", o.frames,
-                "Steps of a thirtieth of a second; a frame that takes longer waits for nothing")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  c->add_option("--speed", o.metresPerSecond, "Metres per second")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
+  addChoice(*c, "--renderer", o.renderer, "Which", renderers(false));
+  addSize(*c, o.size);
+  addNumber(*c, "--frames", o.frames,
+            "Steps of a thirtieth of a second; a frame that takes longer waits for nothing", 1, 1000000);
+  addNumber(*c, "--speed", o.metresPerSecond, "Metres per second", 0.01, 1000.0);
   c->add_option("--chart", o.chart, "Chart to draw: .svg or .png");
 }
 
 void addBenchBake(CLI::App& bench, Chosen& chosen) {
   auto [c, o] = add(bench, chosen, "bake", "Time what a bake does, against the ray tracer alone",
                     "  acentric bench bake kitchen.acentric.json --json", runBenchBake);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
-  c->add_option("--cameras", o.bench.cameras, "Of the ring that is baked, at the spawn")
-      ->check(CLI::Range(6, 72))
-      ->capture_default_str();
-  c->add_option("--side", o.bench.side, "Columns, and rows, of each camera")
-      ->check(CLI::Range(8, 16384))
-      ->capture_default_str();
-  c->add_option("--repeats", o.bench.repeats, "Times each set of effects is baked; the fastest counts")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+  addProject(*c, chosen, o.project, "where the walk begins");
+  addNumber(*c, "--cameras", o.bench.cameras, "Of the ring that is baked, at the spawn", 6, 72);
+  addNumber(*c, "--side", o.bench.side, "Columns, and rows, of each camera", 8, 16384);
+  addNumber(*c, "--repeats", o.bench.repeats, "Times each set of effects is baked; the fastest counts", 1,
+            100);
 }
 
 void addBenchHoles(CLI::App& bench, Chosen& chosen) {
@@ -299,15 +257,12 @@ void addBenchHoles(CLI::App& bench, Chosen& chosen) {
           "  acentric bench holes kitchen.acentric.json -o holes\n"
           "  acentric bench holes kitchen.acentric.json --at 1,2 --yaw 90 --frames 9 --json",
           runBenchHoles);
-  c->add_option("project", o.project, "Project file")->required();
-  addStoreyOption(*c, chosen, "where the walk begins");
+  addProject(*c, chosen, o.project, "where the walk begins");
   c->add_option("--at", o.place, "x,y of a ring, or near one, in metres (default: where the walk begins)");
   c->add_option("--yaw", o.yawDegrees, "Degrees counter-clockwise from +x (default: as the walk begins)");
-  c->add_option("--size", o.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+  addSize(*c, o.size);
   c->add_option("--fov", o.fovDegrees, "Horizontal field of view in degrees (default: the project's)");
-  c->add_option("--frames", o.frames, "Frames from the ring's centre to its left")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  addNumber(*c, "--frames", o.frames, "Frames from the ring's centre to its left", 1, 1000);
   addTruthSamples(*c, o.truthSamples);
   c->add_option("-o,--output", o.output,
                 "Folder for the table (holes.txt, holes.json) and the picture (holes.png)");

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/pipeline/bake_to_size.h"
 #include "engine/pipeline/estimate_bake.h"
 
 namespace acentric {

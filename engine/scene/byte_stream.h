@@ -23,7 +23,17 @@ class ByteWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     append(&v, sizeof v);
   }
-  void flag(bool v) { value(std::uint8_t(v)); }
+  /// As ByteReader's of the same names.
+  template <class T>
+  void small(const T& v, int) {
+    value(static_cast<std::uint8_t>(v));
+  }
+  void number(int v) { value(std::int32_t(v)); }
+  template <class T>
+  void each(const std::vector<T>& things, const auto& write) {
+    value(std::uint64_t(things.size()));
+    for (const T& thing : things) write(thing);
+  }
   void text(const std::string& v) {
     value(std::uint64_t(v.size()));
     append(v.data(), v.size());
@@ -63,6 +73,16 @@ class ByteReader {
     value(byte);
     if (byte > last) sound_ = false, byte = 0;
     out = static_cast<T>(byte);
+  }
+  void number(int& out) {
+    std::int32_t number = 0;
+    value(number);
+    out = number;
+  }
+  template <class T>
+  void each(std::vector<T>& things, const auto& read) {
+    const std::size_t count = length(8);
+    for (std::size_t i = 0; i < count && sound(); ++i) read(things.emplace_back());
   }
   void text(std::string& out) { fill(out); }
   template <class T>

@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <concepts>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -35,7 +36,7 @@ constexpr std::uint64_t withPadding(std::uint64_t bytes) {
 }
 
 struct Header {
-  std::uint32_t version = kSceneFileVersion;
+  std::uint32_t version = kSceneFileVersion, zero = 0;
   std::uint64_t dependencyBytes = 0;
   std::uint64_t packedBytes = 0;
   std::uint64_t unpackedBytes = 0;
@@ -55,54 +56,56 @@ ContentKey checksumOf(const Header& header, Hasher& hasher) {
       .finish();
 }
 
-void write(ByteWriter& out, const TextureUse& use) {
-  out.value(std::int32_t(use.texture));
-  out.value(use.uvSet);
-  out.value(use.transform);
+// What is written and read, field by field, by a ByteWriter or a ByteReader: `fields` of each type.
+
+template <class T, class Of>
+concept Any = std::same_as<std::remove_const_t<T>, Of>;
+
+template <Any<Header> H>
+void fields(auto& bytes, H& header) {
+  bytes.value(header.version);
+  bytes.value(header.zero);
+  bytes.value(header.dependencyBytes);
+  bytes.value(header.packedBytes);
+  bytes.value(header.unpackedBytes);
+  bytes.value(header.geometryBytes);
+  bytes.value(header.checksum);
 }
 
-void read(ByteReader& in, TextureUse& use) {
-  std::int32_t texture = 0;
-  in.value(texture);
-  use.texture = texture;
-  in.small(use.uvSet, 1);
-  in.value(use.transform);
+template <Any<Dependency> D>
+void fields(auto& bytes, D& d) {
+  bytes.text(d.path);
+  bytes.small(d.exists, 1);
+  bytes.value(d.size);
+  bytes.value(d.modifiedNanoseconds);
+  bytes.value(d.inode);
+  bytes.value(d.content);
 }
 
-void write(ByteWriter& out, const Material& m) {
-  out.text(m.name);
-  out.value(m.baseColour);
-  write(out, m.baseColourTexture);
-  out.value(m.emissive);
-  write(out, m.emissiveTexture);
-  out.value(m.metallic);
-  out.value(m.roughness);
-  write(out, m.metallicRoughnessTexture);
-  write(out, m.normalTexture);
-  out.value(m.normalScale);
-  out.value(m.transmission);
-  out.value(m.alphaMode);
-  out.value(m.alphaCutoff);
-  out.flag(m.doubleSided);
-  out.flag(m.unlit);
+template <Any<TextureUse> T>
+void fields(auto& bytes, T& use) {
+  bytes.number(use.texture);
+  bytes.small(use.uvSet, 1);
+  bytes.value(use.transform);
 }
 
-void read(ByteReader& in, Material& m) {
-  in.text(m.name);
-  in.value(m.baseColour);
-  read(in, m.baseColourTexture);
-  in.value(m.emissive);
-  read(in, m.emissiveTexture);
-  in.value(m.metallic);
-  in.value(m.roughness);
-  read(in, m.metallicRoughnessTexture);
-  read(in, m.normalTexture);
-  in.value(m.normalScale);
-  in.value(m.transmission);
-  in.small(m.alphaMode, 2);
-  in.value(m.alphaCutoff);
-  in.small(m.doubleSided, 1);
-  in.small(m.unlit, 1);
+template <Any<Material> M>
+void fields(auto& bytes, M& m) {
+  bytes.text(m.name);
+  bytes.value(m.baseColour);
+  fields(bytes, m.baseColourTexture);
+  bytes.value(m.emissive);
+  fields(bytes, m.emissiveTexture);
+  bytes.value(m.metallic);
+  bytes.value(m.roughness);
+  fields(bytes, m.metallicRoughnessTexture);
+  fields(bytes, m.normalTexture);
+  bytes.value(m.normalScale);
+  bytes.value(m.transmission);
+  bytes.small(m.alphaMode, 2);
+  bytes.value(m.alphaCutoff);
+  bytes.small(m.doubleSided, 1);
+  bytes.small(m.unlit, 1);
 }
 
 /// Hands all arrays of a mesh on, in the order of the file.
@@ -117,200 +120,124 @@ void forEachArray(AnyMesh& m, const Visit& visit) {
   visit(m.triangles);
 }
 
-void write(ByteWriter& out, const Mesh& m) {
-  out.text(m.name);
-  out.value(std::int32_t(m.material));
-  forEachArray(m, [&](const auto& array) { out.value(std::uint64_t(array.size())); });
-}
-
-/// Takes the lengths of arrays from the scene and their contents from the geometry, one behind the other.
-class GeometryReader {
+/// Lengths of arrays are in the scene, their contents in the geometry, one behind the other.
+class SceneWriter : public ByteWriter {
  public:
-  GeometryReader(std::shared_ptr<const MappedFile> file, std::uint64_t start, std::uint64_t bytes)
-      : file_(std::move(file)), left_(file_->bytes().subspan(start, bytes)) {}
-
-  void read(ByteReader& in, Mesh& m) {
-    in.text(m.name);
-    std::int32_t material = 0;
-    in.value(material);
-    m.material = material;
-    forEachArray(m, [&]<class T>(MeshArray<T>& array) {
-      std::uint64_t size = 0;
-      in.value(size);
-      if (size > left_.size() / sizeof(T) || withPadding(size * sizeof(T)) > left_.size()) in.refuse();
-      if (!in.sound() || size == 0) return;
-      array = MeshArray<T>::mapped({reinterpret_cast<const T*>(left_.data()), std::size_t(size)}, file_);
-      left_ = left_.subspan(withPadding(size * sizeof(T)));
-    });
+  using ByteWriter::ByteWriter;
+  template <class T>
+  void geometry(const MeshArray<T>& array) {
+    value(std::uint64_t(array.size()));
   }
-  bool atEnd() const { return left_.empty(); }
+};
+class SceneReader : public ByteReader {
+ public:
+  SceneReader(Source source, std::uint64_t size, std::shared_ptr<const MappedFile> file, std::uint64_t start,
+              std::uint64_t bytes)
+      : ByteReader(std::move(source), size),
+        file_(std::move(file)),
+        geometry_(file_->bytes().subspan(start, bytes)) {}
+
+  template <class T>
+  void geometry(MeshArray<T>& array) {
+    std::uint64_t size = 0;
+    value(size);
+    if (size > geometry_.size() / sizeof(T) || withPadding(size * sizeof(T)) > geometry_.size()) refuse();
+    if (!sound() || size == 0) return;
+    array = MeshArray<T>::mapped({reinterpret_cast<const T*>(geometry_.data()), std::size_t(size)}, file_);
+    geometry_ = geometry_.subspan(withPadding(size * sizeof(T)));
+  }
+  bool atEnd() const { return ByteReader::atEnd() && geometry_.empty(); }
 
  private:
   std::shared_ptr<const MappedFile> file_;
-  std::span<const std::byte> left_;
+  std::span<const std::byte> geometry_;
 };
 
-void write(ByteWriter& out, const Instance& i) {
-  out.value(i.prototype);
-  out.value(i.worldFromPrototype);
+template <Any<Mesh> M>
+void fields(auto& bytes, M& m) {
+  bytes.text(m.name);
+  bytes.number(m.material);
+  forEachArray(m, [&](auto& array) { bytes.geometry(array); });
 }
 
-void read(ByteReader& in, Instance& i) {
-  in.value(i.prototype);
-  in.value(i.worldFromPrototype);
+template <Any<Instance> I>
+void fields(auto& bytes, I& i) {
+  bytes.value(i.prototype);
+  bytes.value(i.worldFromPrototype);
 }
 
-void write(ByteWriter& out, const Texture& t) {
-  out.text(t.name);
-  out.value(std::int32_t(t.image));
-  out.value(t.wrapU);
-  out.value(t.wrapV);
-  out.flag(t.nearest);
+template <Any<Texture> T>
+void fields(auto& bytes, T& t) {
+  bytes.text(t.name);
+  bytes.number(t.image);
+  bytes.small(t.wrapU, 2);
+  bytes.small(t.wrapV, 2);
+  bytes.small(t.nearest, 1);
 }
 
-void read(ByteReader& in, Texture& t) {
-  in.text(t.name);
-  std::int32_t image = 0;
-  in.value(image);
-  t.image = image;
-  in.small(t.wrapU, 2);
-  in.small(t.wrapV, 2);
-  in.small(t.nearest, 1);
-}
-
-void write(ByteWriter& out, const std::shared_ptr<const ColourImage>& image) {
+void fields(SceneWriter& out, const std::shared_ptr<const ColourImage>& image) {
   static const ColourImage kNone;
   const ColourImage& picture = image ? *image : kNone;
-  out.value(std::int32_t(picture.width));
-  out.value(std::int32_t(picture.height));
+  out.number(picture.width);
+  out.number(picture.height);
   out.array(picture.pixels);
 }
-
-void read(ByteReader& in, std::shared_ptr<const ColourImage>& image) {
+void fields(SceneReader& in, std::shared_ptr<const ColourImage>& image) {
   ColourImage picture;
-  std::int32_t width = 0, height = 0;
-  in.value(width);
-  in.value(height);
+  in.number(picture.width);
+  in.number(picture.height);
   in.array(picture.pixels);
-  const bool fits =
-      width > 0 && height > 0 && std::size_t(width) * std::size_t(height) == picture.pixels.size();
-  if (fits) {
-    picture.width = width;
-    picture.height = height;
+  if (picture.width > 0 && picture.height > 0 &&
+      std::size_t(picture.width) * std::size_t(picture.height) == picture.pixels.size())
     image = std::make_shared<const ColourImage>(std::move(picture));
-  }
 }
 
-void write(ByteWriter& out, const Light& l) {
-  out.text(l.name);
-  out.value(l.kind);
-  out.value(l.colour);
-  out.value(l.intensity);
-  out.value(l.position);
-  out.value(l.direction);
-  out.value(l.range);
-  out.value(l.innerCone);
-  out.value(l.outerCone);
-  out.value(l.radius);
-  out.value(l.angularRadius);
+template <Any<Light> L>
+void fields(auto& bytes, L& l) {
+  bytes.text(l.name);
+  bytes.small(l.kind, 2);
+  bytes.value(l.colour);
+  bytes.value(l.intensity);
+  bytes.value(l.position);
+  bytes.value(l.direction);
+  bytes.value(l.range);
+  bytes.value(l.innerCone);
+  bytes.value(l.outerCone);
+  bytes.value(l.radius);
+  bytes.value(l.angularRadius);
 }
 
-void read(ByteReader& in, Light& l) {
-  in.text(l.name);
-  in.small(l.kind, 2);
-  in.value(l.colour);
-  in.value(l.intensity);
-  in.value(l.position);
-  in.value(l.direction);
-  in.value(l.range);
-  in.value(l.innerCone);
-  in.value(l.outerCone);
-  in.value(l.radius);
-  in.value(l.angularRadius);
+template <Any<std::string> S>
+void fields(auto& bytes, S& line) {
+  bytes.text(line);
 }
 
-void write(ByteWriter& out, const std::string& line) { out.text(line); }
-void read(ByteReader& in, std::string& line) { in.text(line); }
-
-void write(ByteWriter& out, const Dependency& d) {
-  out.text(d.path);
-  out.flag(d.exists);
-  out.value(d.size);
-  out.value(d.modifiedNanoseconds);
-  out.value(d.inode);
-  out.value(d.content);
+void list(auto& bytes, auto& things) {
+  bytes.each(things, [&](auto& thing) { fields(bytes, thing); });
 }
 
-void read(ByteReader& in, Dependency& d) {
-  in.text(d.path);
-  in.small(d.exists, 1);
-  in.value(d.size);
-  in.value(d.modifiedNanoseconds);
-  in.value(d.inode);
-  in.value(d.content);
-}
-
-template <class T>
-void writeAll(ByteWriter& out, const std::vector<T>& things) {
-  out.value(std::uint64_t(things.size()));
-  for (const T& thing : things) write(out, thing);
-}
-
-template <class T, class Read>
-void readAll(ByteReader& in, std::vector<T>& things, const Read& readOne) {
-  const std::size_t count = in.length(8);
-  for (std::size_t i = 0; i < count && in.sound(); ++i) readOne(things.emplace_back());
-}
-template <class T>
-void readAll(ByteReader& in, std::vector<T>& things) {
-  readAll(in, things, [&](T& thing) { read(in, thing); });
-}
-
-void write(ByteWriter& out, const Scene& scene) {
-  out.text(scene.name);
-  out.value(scene.key);
-  out.value(scene.parts);
-  out.value(scene.origin);
-  writeAll(out, scene.materials);
-  writeAll(out, scene.meshes);
-  writeAll(out, scene.prototypes);
-  writeAll(out, scene.instances);
-  writeAll(out, scene.textures);
-  writeAll(out, scene.images);
-  writeAll(out, scene.lights);
-  out.value(scene.sky.zenith);
-  out.value(scene.sky.horizon);
-  out.value(scene.sky.ground);
-  out.value(scene.bounds.min);
-  out.value(scene.bounds.max);
-  for (const auto* lines :
-       {&scene.report.found, &scene.report.dropped, &scene.report.ignored, &scene.report.guessed})
-    writeAll(out, *lines);
-  out.value(scene.report.metresPerUnit);
-}
-
-void read(ByteReader& in, GeometryReader& geometry, Scene& scene) {
-  const auto readMesh = [&](Mesh& mesh) { geometry.read(in, mesh); };
-  in.text(scene.name);
-  in.value(scene.key);
-  in.value(scene.parts);
-  in.value(scene.origin);
-  readAll(in, scene.materials);
-  readAll(in, scene.meshes, readMesh);
-  readAll(in, scene.prototypes, readMesh);
-  readAll(in, scene.instances);
-  readAll(in, scene.textures);
-  readAll(in, scene.images);
-  readAll(in, scene.lights);
-  in.value(scene.sky.zenith);
-  in.value(scene.sky.horizon);
-  in.value(scene.sky.ground);
-  in.value(scene.bounds.min);
-  in.value(scene.bounds.max);
+template <Any<Scene> S>
+void fields(auto& bytes, S& scene) {
+  bytes.text(scene.name);
+  bytes.value(scene.key);
+  bytes.value(scene.parts);
+  bytes.value(scene.origin);
+  list(bytes, scene.materials);
+  list(bytes, scene.meshes);
+  list(bytes, scene.prototypes);
+  list(bytes, scene.instances);
+  list(bytes, scene.textures);
+  list(bytes, scene.images);
+  list(bytes, scene.lights);
+  bytes.value(scene.sky.zenith);
+  bytes.value(scene.sky.horizon);
+  bytes.value(scene.sky.ground);
+  bytes.value(scene.bounds.min);
+  bytes.value(scene.bounds.max);
   for (auto* lines :
        {&scene.report.found, &scene.report.dropped, &scene.report.ignored, &scene.report.guessed})
-    readAll(in, *lines);
-  in.value(scene.report.metresPerUnit);
+    list(bytes, *lines);
+  bytes.value(scene.report.metresPerUnit);
 }
 
 /// What the Scene type promises, for a file whose checksum may have been forged.
@@ -357,20 +284,14 @@ std::vector<std::byte> bytesOf(const Header& header) {
   ByteWriter out(
       [&](std::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); });
   out.value(kMagic);
-  out.value(header.version);
-  out.value(std::uint32_t(0));
-  out.value(header.dependencyBytes);
-  out.value(header.packedBytes);
-  out.value(header.unpackedBytes);
-  out.value(header.geometryBytes);
-  out.value(header.checksum);
+  fields(out, header);
   return bytes;
 }
 
 template <class Write>
 std::uint64_t sizeOf(const Write& write) {
   std::uint64_t size = 0;
-  ByteWriter counter([&](std::span<const std::byte> part) { size += part.size(); });
+  SceneWriter counter([&](std::span<const std::byte> part) { size += part.size(); });
   write(counter);
   return size;
 }
@@ -412,8 +333,8 @@ ByteReader readerOf(std::span<const std::byte> bytes) {
 }  // namespace
 
 Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) try {
-  const auto writeScene = [&](ByteWriter& out) { write(out, file.scene); };
-  const auto writeDependencies = [&](ByteWriter& out) { writeAll(out, file.dependencies); };
+  const auto writeScene = [&](SceneWriter& out) { fields(out, file.scene); };
+  const auto writeDependencies = [&](ByteWriter& out) { list(out, file.dependencies); };
   Header header;
   header.dependencyBytes = sizeOf(writeDependencies);
   header.unpackedBytes = sizeOf(writeScene);
@@ -431,7 +352,7 @@ Status writeSceneFile(const SceneFile& file, const std::filesystem::path& path) 
     ByteWriter dependencies([&](std::span<const std::byte> bytes) { out.write(bytes); });
     writeDependencies(dependencies);
     Packer packer(out, header.unpackedBytes);
-    ByteWriter scene([&](std::span<const std::byte> bytes) { packer.add(bytes); });
+    SceneWriter scene([&](std::span<const std::byte> bytes) { packer.add(bytes); });
     writeScene(scene);
     if (const char* trouble = packer.close())
       return fail(ErrorKind::internal, fmt::format("packing failed: {}", trouble), path.string());
@@ -456,18 +377,11 @@ Result<SceneFile> readSceneFile(const std::filesystem::path& path,
   const std::span<const std::byte> bytes = (*file)->bytes();
   Header header;
   std::array<char, sizeof kMagic> magic{};
-  std::uint32_t zero = 0;
   ByteReader in = readerOf(bytes);
   in.value(magic);
-  in.value(header.version);
-  in.value(zero);
-  in.value(header.dependencyBytes);
-  in.value(header.packedBytes);
-  in.value(header.unpackedBytes);
-  in.value(header.geometryBytes);
-  in.value(header.checksum);
+  fields(in, header);
   if (!in.sound() || !std::ranges::equal(magic, kMagic)) return malformed("is not a scene file", path);
-  if (header.version != kSceneFileVersion || zero != 0)
+  if (header.version != kSceneFileVersion || header.zero != 0)
     return fail(ErrorKind::unsupported,
                 fmt::format("is version {} of the scene file; this program reads version {}", header.version,
                             kSceneFileVersion),
@@ -484,15 +398,15 @@ Result<SceneFile> readSceneFile(const std::filesystem::path& path,
 
   SceneFile out;
   ByteReader dependencies = readerOf(bytes.subspan(kHeaderBytes, header.dependencyBytes));
-  readAll(dependencies, out.dependencies);
+  list(dependencies, out.dependencies);
   if (!dependencies.sound() || !dependencies.atEnd()) return malformed("has a broken list of files", path);
   if (accept && !accept(out.dependencies)) return out;
 
   Unpacker unpacker(bytes.subspan(kHeaderBytes + header.dependencyBytes, header.packedBytes));
-  ByteReader scene([&](std::span<std::byte> part) { return unpacker.read(part); }, header.unpackedBytes);
-  GeometryReader geometry(*file, header.geometryStart(), header.geometryBytes);
-  read(scene, geometry, out.scene);
-  if (!scene.sound() || !scene.atEnd() || !unpacker.atEnd() || !geometry.atEnd() || !keepsPromises(out.scene))
+  SceneReader scene([&](std::span<std::byte> part) { return unpacker.read(part); }, header.unpackedBytes,
+                    *file, header.geometryStart(), header.geometryBytes);
+  fields(scene, out.scene);
+  if (!scene.sound() || !scene.atEnd() || !unpacker.atEnd() || !keepsPromises(out.scene))
     return malformed("has broken contents", path);
   return out;
 } catch (const std::bad_alloc&) {

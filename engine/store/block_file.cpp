@@ -17,20 +17,18 @@ namespace {
 constexpr std::array<char, 8> kMagic = {'A', 'C', 'E', 'N', 'P', 'K', '\r', '\n'};
 /// Of each kind of file its own: one that changes leaves the others readable.
 constexpr std::uint32_t versionOf(BlockFileKind kind) {
-  if (kind == BlockFileKind::capture) return kPlainCapture;
+  if (kind == BlockFileKind::capture) return kCodedCapture;
   if (kind == BlockFileKind::surfaceLight) return 4;
   if (kind == BlockFileKind::localGeometry) return 3;
   return kind == BlockFileKind::surfaceLightPart ? 1 : 2;
 }
-/// What a reader of the kind takes: captures in all of their versions.
+/// What a reader of the kind takes: captures in both of their versions.
 bool isRead(BlockFileKind kind, std::uint32_t version) {
-  return version == versionOf(kind) ||
-         (kind == BlockFileKind::capture && (version == kCodedCapture || version == kDisplayCapture));
+  return version == versionOf(kind) || (kind == BlockFileKind::capture && version == kDisplayCapture);
 }
 std::string versionsOf(BlockFileKind kind) {
-  return kind == BlockFileKind::capture
-             ? fmt::format("{}, {} and {}", kPlainCapture, kCodedCapture, kDisplayCapture)
-             : fmt::format("{}", versionOf(kind));
+  return kind == BlockFileKind::capture ? fmt::format("{} and {}", kCodedCapture, kDisplayCapture)
+                                        : fmt::format("{}", versionOf(kind));
 }
 constexpr std::size_t kPreambleBytes = 56;
 constexpr std::size_t kChecksumBytes = 16;

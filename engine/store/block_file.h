@@ -32,7 +32,7 @@ enum class BlockFileKind : std::uint32_t {
 
 /// Of captures: colours as they are and arrays of records; all of it coded; the same with colours as they are
 /// shown (FORMAT.md).
-inline constexpr std::uint32_t kPlainCapture = 4, kCodedCapture = 6, kDisplayCapture = 7;
+inline constexpr std::uint32_t kCodedCapture = 6, kDisplayCapture = 7;
 
 /// Records per block of a lane array: with up to 16 bytes a record a block stays within a processor's cache.
 inline constexpr std::size_t kRecordsPerBlock = 65536;

@@ -222,10 +222,13 @@ Result<Capture> readCoded(BlockFileReader& file, const AcceptPack& accept) {
   return capture;
 }
 
-Result<Keyed<Capture>> readAny(Result<BlockFileReader> file, const AcceptPack& accept = {}) {
+Result<Keyed<Capture>> readWhole(Result<BlockFileReader> file, const AcceptPack& accept = {}) {
   if (!file) return tl::unexpected(file.error());
-  return wholePack(*file,
-                   file->version() == kPlainCapture ? readPlain(*file, accept) : readCoded(*file, accept));
+  auto capture = readCoded(*file, accept);
+  if (!capture) return tl::unexpected(capture.error());
+  if (!file->atEnd()) return file->malformed("has more blocks than its description needs");
+  if (Status sound = capture->check(); !sound) return file->malformed(sound.error().describe());
+  return Keyed<Capture>{file->key(), std::move(*capture)};
 }
 
 }  // namespace
@@ -246,13 +249,13 @@ Status writeDisplayPack(const Capture& capture, const ContentKey& key, const std
 }
 
 Result<Keyed<Capture>> readKeyedCapturePack(const std::filesystem::path& path) {
-  return withinMemory(path, [&] { return readAny(BlockFileReader::open(path, BlockFileKind::capture)); });
+  return withinMemory(path, [&] { return readWhole(BlockFileReader::open(path, BlockFileKind::capture)); });
 }
 
 Result<Keyed<Capture>> keyedCaptureOf(std::vector<std::byte> bytes, const std::string& name,
                                       const AcceptPack& accept) {
   return withinMemory(name, [&] {
-    return readAny(BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture), accept);
+    return readWhole(BlockFileReader::of(std::move(bytes), name, BlockFileKind::capture), accept);
   });
 }
 

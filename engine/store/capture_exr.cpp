@@ -17,15 +17,6 @@ HalfColour premultiplied(const HalfColour& straight) {
   return result;
 }
 
-HalfColour straightened(const HalfColour& premultiplied) {
-  if (premultiplied.a == kHalfOne) return premultiplied;
-  if (premultiplied.a == 0) return HalfColour(0);
-  const glm::vec4 colour = unpackColour(premultiplied);
-  HalfColour result = packColour(glm::vec4(glm::vec3(colour) / colour.a, 1));
-  result.a = premultiplied.a;
-  return result;
-}
-
 CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> premultipliedColours) {
   CaptureSamples all = capture;
   all.colour = std::move(premultipliedColours);
@@ -67,43 +58,6 @@ CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> pr
     all.columnStart.push_back(std::uint32_t(all.row.size()));
   }
   return all;
-}
-
-Status takeBackground(CaptureSamples& samples, const Sky& sky, CaptureBackground& out) {
-  BackgroundBuilder background;
-  std::size_t kept = 0, begin = 0;
-  for (std::size_t column = 0; column + 1 < samples.columnStart.size(); ++column) {
-    int behind = -1;  // the last row with background
-    const std::size_t end = samples.columnStart[column + 1];
-    for (std::size_t i = begin; i < end; ++i) {
-      const int row = samples.row[i];
-      const bool far = samples.inverseDistance[i] == 0;
-      if (row == behind || (far && !samples.mirror.empty() && samples.mirror[i] != 0))
-        return fail(ErrorKind::malformed,
-                    row == behind ? "a sample lies behind the background" : "the background is no mirror");
-      if (far) {
-        background.add(row, samples.roles[i]);
-        behind = row;
-        continue;
-      }
-      samples.row[kept] = samples.row[i];
-      samples.inverseDistance[kept] = samples.inverseDistance[i];
-      samples.colour[kept] = samples.colour[i];
-      samples.roles[kept] = samples.roles[i];
-      if (!samples.mirror.empty()) samples.mirror[kept] = samples.mirror[i];
-      ++kept;
-    }
-    background.closeColumn();
-    begin = end;
-    samples.columnStart[column + 1] = std::uint32_t(kept);
-  }
-  samples.row.resize(kept);
-  samples.inverseDistance.resize(kept);
-  samples.colour.resize(kept);
-  samples.roles.resize(kept);
-  if (!samples.mirror.empty()) samples.mirror.resize(kept);
-  out = std::move(background).finish(sky);
-  return {};
 }
 
 ContentKey checksumOf(const ContentKey& key, const Capture& capture,

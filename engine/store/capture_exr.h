@@ -1,9 +1,8 @@
 #pragma once
-/// What the reading and the writing of capture files as OpenEXR agree on (FORMAT.md, "Captures as OpenEXR").
+/// What capture files as OpenEXR hold (FORMAT.md, "Captures as OpenEXR").
 
 #include <OpenEXR/ImfHeader.h>
 
-#include <array>
 #include <vector>
 
 #include "engine/base/hash.h"
@@ -15,7 +14,6 @@ inline constexpr int kCaptureExrVersion = 4;
 /// Value of channel W where a flat file's pixel has no sample.
 inline constexpr float kNoDistance = -1.0f;
 
-inline constexpr std::array kColourChannels = {"R", "G", "B", "A"};
 /// Who needs a sample: bit r for role r.
 inline constexpr char kRolesChannel[] = "roles";
 /// Which mirror a surface belongs to, or shows what a reflection is of. Only in files with reflections.
@@ -37,22 +35,13 @@ inline constexpr char kAttributeZenith[] = "acentricSkyZenith";
 inline constexpr char kAttributeHorizon[] = "acentricSkyHorizon";
 inline constexpr char kAttributeGround[] = "acentricSkyGround";
 
-/// As slices of frame buffers are told where values are.
-template <class T>
-char* slicePointer(T& value) {
-  return reinterpret_cast<char*>(&value);
-}
-
-/// OpenEXR's convention is premultiplied colour, ours is straight. Exact for alpha 1; else each direction
-/// rounds to the nearest half, and the colour under alpha 0 is lost.
+/// OpenEXR's convention is premultiplied colour, ours is straight. Exact for alpha 1; else rounded to the
+/// nearest half.
 HalfColour premultiplied(const HalfColour& straight);
-HalfColour straightened(const HalfColour& premultiplied);
 
 /// The samples of a picture: in the background there is one more, infinitely far and opaque. Colours are
 /// premultiplied.
 CaptureSamples withBackground(const Capture& capture, std::vector<HalfColour> premultipliedColours);
-/// Takes it out again. Fails where a sample lies behind it, or it is said to be a mirror.
-Status takeBackground(CaptureSamples& samples, const Sky& sky, CaptureBackground& out);
 
 /// Guards what the compression's own check does not: attributes, sample counts, the order of samples.
 /// Reflections are opaque: their colours are the same premultiplied.

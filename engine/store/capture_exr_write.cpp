@@ -28,6 +28,7 @@
 namespace acentric {
 namespace {
 
+constexpr std::array kColourChannels = {"R", "G", "B", "A"};
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// zlib's fast end: about three times the speed of its default for a tenth more bytes.
 constexpr int kZipLevel = 2;
@@ -100,6 +101,11 @@ float rayDistance(double rayPerHorizontal, float inverseDistance) {
 
 double rayPerHorizontal(const ColumnCamera& camera, std::size_t row) {
   return std::hypot(1.0, camera.tangentAt(static_cast<double>(row) + 0.5));
+}
+
+template <class T>
+char* slicePointer(T& value) {
+  return reinterpret_cast<char*>(&value);
 }
 
 /// Thrown out of the loops over lines.

@@ -55,8 +55,7 @@ std::optional<ContentKey> keyInName(const fs::path& path) {
     stem = stem.substr(kLightPrefix.size(), stem.find('.') - kLightPrefix.size());
   else if (name.extension() == kSimplifiedExtension && stem.starts_with(kSimplifiedPrefix))
     stem.erase(0, kSimplifiedPrefix.size());
-  else if (name.extension() != kTwinExtension && name.extension() != kPackExtension &&
-           name.extension() != kRecordExtension)
+  else if (name.extension() != kPackExtension && name.extension() != kRecordExtension)
     return std::nullopt;
   const auto key = ContentKey::fromHex(stem);
   return key ? std::optional(*key) : std::nullopt;
@@ -151,10 +150,8 @@ std::uint64_t CaptureStore::prune(const std::vector<ContentKey>& keep) const {
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
     const auto key = keyInName(entry->path());
     const bool setAsideBefore = entry->path().extension() == kDamagedExtension;
-    const bool twin = entry->path().extension() == kTwinExtension;
     const bool doneWith = key && entry->path().extension() == kLightPartExtension && hasSurfaceLight(*key);
-    if (key &&
-        (setAsideBefore || twin || doneWith || std::find(keep.begin(), keep.end(), *key) == keep.end()))
+    if (key && (setAsideBefore || doneWith || std::find(keep.begin(), keep.end(), *key) == keep.end()))
       doomed.push_back(entry->path());
   }
   for (const fs::path& path : doomed) {

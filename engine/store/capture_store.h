@@ -2,9 +2,6 @@
 /// Captures on disk under content keys, format: FORMAT.md. Each capture is one file, `<key>.pack`. As
 /// OpenEXR, which other tools read, captures are exported. All writes are atomic; a file that fails its
 /// checks is treated as missing and reported, never used.
-///
-/// Earlier versions kept an OpenEXR twin `<key>.exr` beside each pack. Such stores are read as they are: the
-/// pack is the capture, the twin is not looked at, whether it is there or not, and prune() deletes it.
 
 #include <filesystem>
 #include <map>
@@ -30,19 +27,15 @@ namespace acentric {
 /// Flat where no pixel has more than one sample, else deep. Silhouettes are not in it.
 Status writeCaptureExr(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                        const std::stop_token& stop = {});
-Result<Capture> readCaptureExr(const std::filesystem::path& path);
 
-/// All as it is, in arrays of records.
-Status writeCapturePack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
-                        const std::stop_token& stop = {});
-/// As stores keep captures: several times smaller. Colours by a quality (colour_quality.h), the rest exactly.
+/// As stores keep captures. Colours by a quality (colour_quality.h), the rest exactly.
 Status writeCodedPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                       int colourQuality, const std::stop_token& stop = {});
 /// The same, but colours as they are shown at an exposure, in 8 bits: what bundles hold. `colourQuality`:
 /// 0..99.
 Status writeDisplayPack(const Capture& capture, const ContentKey& key, const std::filesystem::path& path,
                         int colourQuality, float exposure, const std::stop_token& stop = {});
-/// Any of these.
+/// Either of these.
 Result<Capture> readCapturePack(const std::filesystem::path& path);
 
 Status writeSurfaceLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,
@@ -120,7 +113,7 @@ class CaptureStore {
 
   std::uint64_t bytesOf(const ContentKey& key) const;
   /// Deletes captures, surface light and simplified geometry whose key is not in `keep`, what was set aside,
-  /// parts of light that is whole, and OpenEXR twins of earlier versions; returns bytes freed.
+  /// and parts of light that is whole; returns bytes freed.
   std::uint64_t prune(const std::vector<ContentKey>& keep) const;
 
  private:

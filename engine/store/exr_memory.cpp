@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 
 namespace acentric {
 
@@ -30,14 +29,6 @@ std::vector<std::span<const std::byte>> ExrMemoryOutput::parts() const {
   for (std::size_t block = 0; block < blocks_.size(); ++block)
     parts.push_back({blocks_[block].data(), std::min(kBlockBytes, size_ - block * kBlockBytes)});
   return parts;
-}
-
-bool ExrMemoryInput::read(char out[], int count) {
-  if (count < 0 || position_ > bytes_.size() || static_cast<std::size_t>(count) > bytes_.size() - position_)
-    throw std::runtime_error("it ends too early");
-  std::memcpy(out, bytes_.data() + position_, static_cast<std::size_t>(count));
-  position_ += static_cast<std::size_t>(count);
-  return position_ < bytes_.size();
 }
 
 }  // namespace acentric

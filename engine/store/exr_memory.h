@@ -1,6 +1,5 @@
 #pragma once
-/// OpenEXR files in memory: what is written reaches the disk in one atomic step, with its errors seen; what
-/// is read was read whole, so that the size is known before any count in it is believed.
+/// OpenEXR files in memory: what is written reaches the disk in one atomic step, with its errors seen.
 
 #include <OpenEXR/ImfIO.h>
 
@@ -23,20 +22,6 @@ class ExrMemoryOutput : public Imf::OStream {
  private:
   std::vector<std::vector<std::byte>> blocks_;  ///< all of one size: they grow without being copied
   std::uint64_t size_ = 0, position_ = 0;
-};
-
-/// The bytes outlive the stream. Reading beyond the end throws, as OpenEXR expects.
-class ExrMemoryInput : public Imf::IStream {
- public:
-  ExrMemoryInput(const std::string& name, std::span<const std::byte> bytes)
-      : Imf::IStream(name.c_str()), bytes_(bytes) {}
-  bool read(char out[], int count) override;
-  std::uint64_t tellg() override { return position_; }
-  void seekg(std::uint64_t position) override { position_ = position; }
-
- private:
-  std::span<const std::byte> bytes_;
-  std::uint64_t position_ = 0;
 };
 
 }  // namespace acentric

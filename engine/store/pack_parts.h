@@ -1,6 +1,6 @@
 #pragma once
-/// What both versions of packed captures share (FORMAT.md, "Kind 1"): how their description begins, and the
-/// records of the background. Private to this folder.
+/// Of packed captures (FORMAT.md, "Kind 1"): how their description begins, and the records of the background.
+/// Private to this folder.
 
 #include "engine/image/capture.h"
 #include "engine/store/block_file.h"
@@ -29,10 +29,5 @@ inline constexpr std::uint64_t kRunBytes = 5;
 Status addBackground(BlockFileWriter& file, const CaptureBackground& background);
 /// Numbers are known to agree with the file's size.
 Status takeBackground(BlockFileReader& file, std::size_t columns, std::uint64_t runs, CaptureBackground& out);
-
-/// Of version kPlainCapture (capture_pack.cpp), not checked yet. What `accept` refuses is not unpacked.
-Result<Capture> readPlain(BlockFileReader& file, const AcceptPack& accept = {});
-/// Is nothing left of the file, and what was read a capture?
-Result<Keyed<Capture>> wholePack(const BlockFileReader& file, Result<Capture> capture);
 
 }  // namespace acentric

@@ -11,8 +11,6 @@
 namespace acentric {
 
 inline constexpr const char* kPackExtension = ".pack";
-/// Of the OpenEXR file that earlier versions kept beside each pack: no part of a capture any more.
-inline constexpr const char* kTwinExtension = ".exr";
 inline constexpr const char* kDamagedExtension = ".damaged";
 inline constexpr const char* kRecordExtension = ".record";
 inline constexpr const char* kLightExtension = ".light";

@@ -43,12 +43,7 @@ Result<CaptureRecord> CaptureStore::record(const ContentKey& key) const {
   const fs::path path = recordOf(folder_, key);
   const auto text = readText(path, kMostRecordBytes);
   if (!text) return tl::unexpected(text.error());
-  auto record = parseRecord(*text, path.string());
-  // Records of earlier versions name the capture's OpenEXR twin too. It may be there, changed or gone: the
-  // capture is its pack.
-  if (record)
-    std::erase_if(record->files, [](const FileRecord& file) { return file.extension == kTwinExtension; });
-  return record;
+  return parseRecord(*text, path.string());
 }
 
 void CaptureStore::forgetRecord(const ContentKey& key) const {

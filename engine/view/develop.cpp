@@ -3,25 +3,20 @@
 #include <algorithm>
 
 namespace acentric {
-void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource>& sources,
-             const Kernels& kernels, Frame& frame, FloatImage& inverseZDepth) {
-  const std::vector<std::uint32_t> wide(sources.begin(), sources.end());
-  CanvasBlock block;
-  block.columnPitch = canvas.height;
-  block.sources = wide.data();
-  block.rowPitch = frame.colour.width;
-  for (int left = x0; left < x1; left += kBlockSide)
-    for (int top = 0; top < canvas.height; top += kBlockSide) {
-      const int columns = std::min(kBlockSide, x1 - left), rows = std::min(kBlockSide, canvas.height - top);
-      block.pixels = canvas.column(left) + top;
-      block.colour = reinterpret_cast<std::uint32_t*>(&frame.colour.at(left, top));
-      block.source = &frame.source.at(left, top);
-      block.inverseZDepth = &inverseZDepth.at(left, top);
-      if (columns == kBlockSide && rows == kBlockSide)
-        kernels.writeRows(block);
-      else
-        writeRowsOfPart(block, columns, rows);
-    }
+
+void develop(const Canvas& canvas, int x0, int x1, const std::vector<PixelSource>& sources, Frame& frame,
+             FloatImage& inverseZDepth) {
+  constexpr int kBlock = 16;  // from columns to rows: as much as the nearest cache holds
+  for (int left = x0; left < x1; left += kBlock)
+    for (int top = 0; top < canvas.height; top += kBlock)
+      for (int y = top; y < std::min(top + kBlock, canvas.height); ++y)
+        for (int x = left; x < std::min(left + kBlock, x1); ++x) {
+          const CanvasPixel pixel = canvas.column(x)[y];
+          const std::uint32_t slot = slotOf(pixel), own = static_cast<std::uint32_t>(pixel);
+          frame.colour.at(x, y) = colourOf(slot > 0 ? own | 0xff000000u : own);
+          frame.source.at(x, y) = sources[slot];
+          inverseZDepth.at(x, y) = slot > 0 ? inverseZDepthOf(pixel) : 0.0f;
+        }
 }
 
 }  // namespace acentric

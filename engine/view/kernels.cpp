@@ -8,12 +8,10 @@ namespace acentric {
 namespace {
 
 constexpr Kernels kKernels[] = {
-    {"scalar", projectSamplesScalar, writeRowsScalar, shadeRunScalar, coverRowScalar, blendRowScalar,
-     &kPatchKernelScalar},
+    {"scalar", shadeRunScalar, coverRowScalar, blendRowScalar, &kPatchKernelScalar},
 #if defined(__x86_64__)
-    {"AVX2", projectSamplesAvx2, writeRowsAvx2, shadeRunAvx2, coverRowAvx2, blendRowAvx2, &kPatchKernelAvx2},
-    {"AVX-512", projectSamplesAvx512, writeRowsAvx512, shadeRunAvx512, coverRowAvx512, blendRowAvx512,
-     &kPatchKernelAvx512},
+    {"AVX2", shadeRunAvx2, coverRowAvx2, blendRowAvx2, &kPatchKernelAvx2},
+    {"AVX-512", shadeRunAvx512, coverRowAvx512, blendRowAvx512, &kPatchKernelAvx512},
 #endif
 };
 

@@ -3,17 +3,13 @@
 
 #include <span>
 
-#include "engine/view/canvas_rows.h"
 #include "engine/view/patch_kernel.h"
 #include "engine/view/surface_kernel.h"
-#include "engine/view/warp_kernel.h"
 
 namespace acentric {
 
 struct Kernels {
   const char* name;
-  ProjectSamples project;
-  WriteRows writeRows;
   ShadeRun shadeRun;
   CoverRow coverRow;
   BlendRow blendRow;

@@ -121,8 +121,6 @@ struct EightLanes {
             _mm256_cvtepi32_pd(_mm256_extracti128_si256(a.v, 1))};
   }
   static I truncate(F a) { return {_mm256_cvttps_epi32(a.v)}; }
-  static I floor(F a) { return truncate(floorOf(a)); }
-  static I ceil(F a) { return truncate({_mm256_ceil_ps(a.v)}); }
   static F floorOf(F a) { return {_mm256_floor_ps(a.v)}; }
   static F fromHalf(I half) {
     const __m256i packed = _mm256_packus_epi32(both(half, seti(0xffff)).v, _mm256_setzero_si256());
@@ -164,12 +162,12 @@ struct EightLanes {
     return upper ? _mm256_permute2x128_si256(first, second, 0x31)
                  : _mm256_permute2x128_si256(first, second, 0x20);
   }
-  static void storePairs(std::uint64_t* p, I low, I high) {
-    __m256i* const to = reinterpret_cast<__m256i*>(p);
-    _mm256_storeu_si256(to, pairsOf(low, high, false)), _mm256_storeu_si256(to + 1, pairsOf(low, high, true));
-  }
   static void storePairs(std::uint64_t* p, I low, I high, int count) {
-    if (count >= kWidth) return storePairs(p, low, high);
+    if (count >= kWidth) {
+      __m256i* const all = reinterpret_cast<__m256i*>(p);
+      _mm256_storeu_si256(all, pairsOf(low, high, false));
+      return _mm256_storeu_si256(all + 1, pairsOf(low, high, true));
+    }
     auto* const to = reinterpret_cast<long long*>(p);
     _mm256_maskstore_epi64(to, firstPairs(count), pairsOf(low, high, false));
     _mm256_maskstore_epi64(to + 4, firstPairs(count - 4), pairsOf(low, high, true));

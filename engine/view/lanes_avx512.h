@@ -115,10 +115,6 @@ struct SixteenLanes {
             _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(a.v, 1))};
   }
   static I truncate(F a) { return {_mm512_cvttps_epi32(a.v)}; }
-  static I floor(F a) { return truncate(floorOf(a)); }
-  static I ceil(F a) {
-    return truncate({_mm512_roundscale_ps(a.v, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC)});
-  }
   static F floorOf(F a) { return {_mm512_roundscale_ps(a.v, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC)}; }
   static F fromHalf(I half) { return {_mm512_cvtph_ps(_mm512_cvtepi32_epi16(half.v))}; }
 
@@ -155,7 +151,6 @@ struct SixteenLanes {
     const __m512i second = _mm512_maskz_loadu_epi64(__mmask8(firstLanes(count) >> 8), p + 8);
     separate(first, second, low, high);
   }
-  static void storePairs(std::uint64_t* p, I low, I high) { storePairs(p, low, high, kWidth); }
   static void storePairs(std::uint64_t* p, I low, I high, int count) {
     const __m512i lanes = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
     _mm512_mask_storeu_epi64(p, __mmask8(firstLanes(count)), _mm512_permutex2var_epi32(low.v, lanes, high.v));

@@ -71,14 +71,6 @@ struct OneLane {
   static D toDouble(I a) { return a; }
   /// Towards zero; of numbers that an integer holds.
   static I truncate(F a) { return static_cast<I>(a); }
-  static I floor(F a) {
-    const I whole = static_cast<I>(a);
-    return whole - (static_cast<float>(whole) > a);
-  }
-  static I ceil(F a) {
-    const I whole = static_cast<I>(a);
-    return whole + (static_cast<float>(whole) < a);
-  }
   /// The largest whole number not above a finite one.
   static F floorOf(F a) { return __builtin_floorf(a); }
   /// Of the lower sixteen bits; finite halves.
@@ -96,14 +88,13 @@ struct OneLane {
     second = static_cast<I>(table[2 * std::ptrdiff_t(index) + 1]);
   }
 
-  /// Words of 64 bits, as their low and high halves; the first `count` lanes as above, or all.
+  /// Words of 64 bits, as their low and high halves; the first `count` lanes as above.
   static void loadPairs(const std::uint64_t* p, int, I& low, I& high) {
     low = static_cast<I>(static_cast<std::uint32_t>(*p)), high = static_cast<I>(*p >> 32);
   }
-  static void storePairs(std::uint64_t* p, I low, I high) {
+  static void storePairs(std::uint64_t* p, I low, I high, int) {
     *p = static_cast<std::uint32_t>(low) | std::uint64_t(static_cast<std::uint32_t>(high)) << 32;
   }
-  static void storePairs(std::uint64_t* p, I low, I high, int) { storePairs(p, low, high); }
 };
 
 }  // namespace

@@ -8,8 +8,11 @@
 /// eight parts nothing has covered yet.
 ///
 /// One template (patch_kernel_body.h) is compiled for one lane, AVX2 and AVX-512. All do the same operations
-/// in the same order without fused multiply-adds, so their results are the same bits. kernels.h chooses. Free
-/// of the standard library and of glm, as warp_kernel.h is.
+/// in the same order without fused multiply-adds, so their results are the same bits. kernels.h chooses.
+///
+/// This header and everything the AVX sources include must stay free of the standard library and of glm: an
+/// inline function compiled there could otherwise be the one copy that the linker keeps for the whole
+/// program.
 
 #include <cstdint>
 

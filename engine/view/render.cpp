@@ -29,7 +29,6 @@ constexpr int kStripsPerThread = 2;
 /// Of patches: narrow enough for what is known of a strip's pixels to stay in the cache.
 constexpr int kPatchStripsPerThread = 12;
 
-/// One sample at a time, and all of them.
 bool isReference(const ViewSettings& settings) {
   return settings.renderer == Renderer::scalar || settings.renderer == Renderer::precise;
 }
@@ -81,7 +80,6 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
                         Frame& frame) {
   const Kernels& kernels = kernelsFor(settings);
   WarpOptions options;
-  options.project = kernels.project;
   options.depthTest = settings.renderer == Renderer::zbuffer;
   options.precise = settings.renderer == Renderer::precise;
   options.cover = cover;
@@ -112,7 +110,7 @@ WarpCounts drawCaptures(const WalkScene& scene, const PerspectiveView& view, con
     counts[strip] = patches ? paintPatches(patchPlan, *kernels.patches, cover, coverMirrors, x0, x1,
                                            memory.patchCanvases[strip], canvas)
                             : warpPieces(scene, view, settings, plan, options, x0, x1, canvas);
-    develop(canvas, x0, x1, sources, kernels, frame, memory.inverseZDepth);
+    develop(canvas, x0, x1, sources, frame, memory.inverseZDepth);
     seconds[strip] = time.seconds();
   });
   memory.strips = {borders, seconds};

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "engine/view/canvas.h"
 #include "engine/view/splats.h"
 
 namespace acentric {
@@ -33,12 +32,11 @@ struct PaintTarget {
   std::uint32_t openBelow = 0;
 };
 
-/// Splats [first, end), one after the other, or last to first. `pixelByPixel` (layered captures): rows in
-/// that order too, but the samples of each pixel by their distance from the eye (column_order.h). Returns how
-/// many were painted whose first visible pixel lies in the columns that count and may be painted, so that
-/// canvases beside each other add up. A canvas that has room for them is told the mirrors that its pixels
-/// show.
-std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, const SplatArrays& splats, int first,
-                          int end, bool reversed, bool pixelByPixel);
+/// One after the other, or last to first. `pixelByPixel` (layered captures): rows in that order too, but the
+/// samples of each pixel by their distance from the eye (column_order.h). Returns how many were painted whose
+/// first visible pixel lies in the columns that count and may be painted, so that canvases beside each other
+/// add up. A canvas that has room for them is told the mirrors that its pixels show.
+std::uint64_t paintSplats(const PaintTarget& target, PaintMode mode, std::span<const Splat> splats,
+                          bool reversed, bool pixelByPixel);
 
 }  // namespace acentric

@@ -3,7 +3,7 @@
 /// one whose every point looks like base colour times baked light, plus emission.
 ///
 /// One template (surface_kernel_body.h) over the lane types, which all give the same bits. Free of the
-/// standard library and of glm, as warp_kernel.h is.
+/// standard library and of glm, as patch_kernel.h is.
 
 #include <cstdint>
 

@@ -15,8 +15,6 @@
 #include "engine/scene/local_geometry.h"
 #include "engine/scene/surface_light.h"
 #include "engine/view/display_patches.h"
-#include "engine/view/packed_sample.h"
-#include "engine/view/warp_kernel.h"
 
 namespace acentric {
 
@@ -26,6 +24,17 @@ struct DisplayBackground {
   std::vector<glm::dvec2> columnBorder;  ///< columns + 1 unit directions; empty without runs
   std::vector<double> rowBorder;         ///< rows + 1 tangents, falling; empty without runs
 };
+
+/// A sample as it is projected: all that takes, side by side in eight bytes, because samples are read in
+/// short runs here and there and each place in memory that a run begins at must be waited for.
+struct PackedSample {
+  /// 1/m, horizontal: the bits of a float but for its last eight, which captures do not use
+  /// (storedInverseDistance). Instead of those: the roles that need the sample.
+  std::uint32_t inverseDistanceAndRoles;
+  std::uint32_t row;
+  bool operator==(const PackedSample&) const = default;
+};
+static_assert(sizeof(PackedSample) == 8);
 
 inline float inverseDistanceOf(const PackedSample& sample) {
   return std::bit_cast<float>(sample.inverseDistanceAndRoles & ~0xffu);

@@ -24,11 +24,11 @@ glm::dvec3 baselineOf(const PieceDraw&, const DisplayCapture& capture, const Per
 
 /// What is constant over a piece.
 template <class T>
-ProjectColumnOf<T> columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
-                                  const ViewSettings& settings, const PieceDraw& piece,
-                                  const DisplayCapture& capture, const PixelRect& rect, std::uint32_t slot) {
+ProjectColumn<T> columnTemplate(const PictureAxes& axes, const PerspectiveView& view,
+                                const ViewSettings& settings, const PieceDraw& piece,
+                                const DisplayCapture& capture, const PixelRect& rect, std::uint32_t slot) {
   const glm::dvec3 baseline = baselineOf(piece, capture, view, T());
-  ProjectColumnOf<T> column{};
+  ProjectColumn<T> column{};
   axes.project(glm::dvec3(0, 0, 1), column.z);
   axes.project(baseline, column.b);
   const double focal = view.focalPixels();
@@ -41,7 +41,7 @@ ProjectColumnOf<T> columnTemplate(const PictureAxes& axes, const PerspectiveView
   column.centreX = T(0.5) * static_cast<T>(view.width);
   column.centreY = T(0.5) * static_cast<T>(view.height);
   column.inverseFocal = static_cast<T>(1 / focal);
-  column.x0 = rect.x0, column.y0 = rect.y0, column.x1 = rect.x1, column.y1 = rect.y1;
+  column.canvas = rect;
   column.slot = slot;
   column.baseline[0] = static_cast<T>(baseline.x), column.baseline[1] = static_cast<T>(baseline.y);
   if (piece.clipToPart) {
@@ -145,15 +145,14 @@ class CanvasWarp {
       rowTangent_[r] = capture.camera.tangentAt(static_cast<double>(r) + 0.5);
   }
 
-  int projectPrecisely(const DisplayCapture& capture, std::size_t k, const SampleColumn& column,
-                       const SplatArrays& splats) {
+  std::span<const Splat> projectPrecisely(const DisplayCapture& capture, std::size_t k,
+                                          const SampleColumn<float>& column) {
     const glm::dvec2 direction = capture.camera.directionAt(static_cast<double>(k) + 0.5);
     axes_.project(glm::dvec3(direction, 0), precise_.a);
     precise_.maxInverseDistance = double(constants_.maxInverseDistance);
     precise_.minInverseDistance = double(constants_.minInverseDistance);
     precise_.direction[0] = direction.x, precise_.direction[1] = direction.y;
-    return projectSamplesDouble(precise_, {rowTangent_.data(), column.samples, column.colour},
-                                sizeOf(capture, k), splats);
+    return projectSamples(precise_, {rowTangent_.data(), column.samples, column.colour}, splats_);
   }
 
   static std::uint32_t sizeOf(const DisplayCapture& capture, std::size_t k) {
@@ -179,12 +178,11 @@ class CanvasWarp {
                   std::uint32_t slot) {
     const std::size_t start = capture.columnStart[k];
     const PackedSample* const samples = capture.samples.data() + start;
-    const SplatArrays& splats = splats_.room(sizeOf(capture, k));
-    const SampleColumn column =
-        sampleColumn(capture.rowTangent.data(), samples, capture.colour.data() + start);
-    const int count = options_.precise ? projectPrecisely(capture, k, column, splats)
-                                       : options_.project(constants_, column, sizeOf(capture, k), splats);
-    if (count == 0) return;
+    const SampleColumn<float> column{
+        capture.rowTangent.data(), {samples, sizeOf(capture, k)}, capture.colour.data() + start};
+    const std::span<const Splat> splats =
+        options_.precise ? projectPrecisely(capture, k, column) : projectSamples(constants_, column, splats_);
+    if (splats.empty()) return;
 
     const RowOrder order = rowOrder(glm::dvec2(capture.columnDirection[k]), -glm::dvec3(piece.baseline));
     const PaintTarget target{&canvas_,
@@ -199,13 +197,13 @@ class CanvasWarp {
                              countedTo_,
                              openBelow_};
     // Rows above the pivot (upper = smaller numbers) and the others, each towards it or away from it.
-    const auto isAbove = [&](std::uint32_t index) {
-      return capture.rowTangent[samples[index].row] > order.pivotTangent;
+    const auto isAbove = [&](const Splat& splat) {
+      return capture.rowTangent[samples[splat.index].row] > order.pivotTangent;
     };
-    const int above = static_cast<int>(std::partition_point(splats.indices, splats.indices + count, isAbove) -
-                                       splats.indices);
-    counts_.samplesDrawn += paintSplats(target, mode, splats, 0, above, !order.inwards, capture.layered);
-    counts_.samplesDrawn += paintSplats(target, mode, splats, above, count, order.inwards, capture.layered);
+    const auto above =
+        static_cast<std::size_t>(std::ranges::partition_point(splats, isAbove) - splats.begin());
+    counts_.samplesDrawn += paintSplats(target, mode, splats.first(above), !order.inwards, capture.layered);
+    counts_.samplesDrawn += paintSplats(target, mode, splats.subspan(above), order.inwards, capture.layered);
   }
 
   const WalkScene& scene_;
@@ -217,11 +215,11 @@ class CanvasWarp {
   PixelRect rect_;
   int countedFrom_, countedTo_;
   PictureAxes axes_;
-  std::uint32_t openBelow_ = 0;        ///< PaintTarget::openBelow
-  ProjectColumn constants_{};          ///< of the column that is being drawn
-  ProjectColumnOf<double> precise_{};  ///< the same, if WarpOptions::precise
-  std::vector<double> rowTangent_;     ///< of the capture, then
-  SplatMemory splats_;
+  std::uint32_t openBelow_ = 0;       ///< PaintTarget::openBelow
+  ProjectColumn<float> constants_{};  ///< of the column that is being drawn
+  ProjectColumn<double> precise_{};   ///< the same, if WarpOptions::precise
+  std::vector<double> rowTangent_;    ///< of the capture, then
+  std::vector<Splat> splats_;
   WarpCounts counts_;
 };
 

@@ -5,7 +5,6 @@
 
 #include "engine/view/canvas.h"
 #include "engine/view/view_plan.h"
-#include "engine/view/warp_kernel.h"
 
 namespace acentric {
 
@@ -15,8 +14,7 @@ namespace acentric {
 inline constexpr double kSlantAllowance = 1.25;
 
 struct WarpOptions {
-  ProjectSamples project = projectSamplesScalar;
-  bool precise = false;               ///< projectSamplesDouble instead of `project`
+  bool precise = false;               ///< in doubles
   bool depthTest = false;             ///< nearest sample wins instead of the last one
   const CoverImage* cover = nullptr;  ///< what hides the captures in the end
   /// By what covers a pixel: the mirror that it is, 0 = none. There reflections are drawn, over nothing.

@@ -14,9 +14,9 @@
 #include <set>
 #include <thread>
 
+#include "engine/bench/repeated_walk.h"
 #include "engine/capi/acentric_runtime.h"
 #include "engine/export/counted_ranges.h"
-#include "engine/pipeline/repeated_walk.h"
 
 namespace acentric {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "editor/actions/path_walk.h"
 #include "engine/base/file.h"
+#include "engine/bench/repeated_walk.h"
 #include "engine/export/walk_pages.h"
-#include "engine/pipeline/repeated_walk.h"
 #include "tests/editor/session_fixture.h"
 
 namespace acentric::editor {

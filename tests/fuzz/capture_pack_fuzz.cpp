@@ -1,4 +1,4 @@
-/// Packed captures (kind 1), plain and coded ones; what is accepted must be drawable.
+/// Packed captures (kind 1); what is accepted must be drawable.
 
 #include "engine/store/keyed.h"
 #include "engine/view/walk_scene.h"

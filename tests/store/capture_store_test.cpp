@@ -123,47 +123,6 @@ TEST_F(StoreTest, AdoptsWhatAnotherHasAndNeitherLosesItByTheOther) {
   EXPECT_TRUE(from.get(kFirst));
 }
 
-/// As earlier versions left it: an OpenEXR twin beside the pack, and both in the record.
-TEST_F(StoreTest, AStoreWithOpenExrTwinsIsSoundWhateverBecomesOfThem) {
-  const CaptureStore store = openStore();
-  ASSERT_TRUE(store.put(kFirst, capture_));
-  const fs::path twin = file(kFirst, ".exr");
-  ASSERT_TRUE(writeCaptureExr(capture_, kFirst, twin));
-  CaptureRecord record{"camera", {{"scene", kSecond}}, {}, {}};
-  for (const fs::path& path : {twin, file(kFirst, ".pack")})
-    record.files.push_back({path.extension().string(), fs::file_size(path), hashFile(path).value()});
-  ASSERT_TRUE(writeTextAtomically(file(kFirst, ".record"), formatRecord(record)));
-
-  const auto expectSound = [&](const char* what) {
-    EXPECT_TRUE(store.has(kFirst)) << what;
-    EXPECT_TRUE(store.get(kFirst)) << what;
-    EXPECT_EQ(store.check(kFirst).size(), 0u) << what;
-    for (const bool toTheEnd : {false, true}) {
-      const auto inspected = store.inspect(kFirst, toTheEnd);
-      ASSERT_TRUE(inspected) << what;
-      EXPECT_EQ(inspected->condition, CaptureStore::Condition::sound) << what;
-      EXPECT_TRUE(inspected->recorded) << what;
-      EXPECT_FALSE(inspected->recordDamage) << what;
-    }
-    EXPECT_EQ(store.record(kFirst)->files.size(), 1u) << what;
-    EXPECT_EQ(store.bytesOf(kFirst), fs::file_size(file(kFirst, ".pack"))) << what;
-  };
-  expectSound("as it was left");
-  damage(twin);
-  expectSound("the twin is damaged");
-  const std::uint64_t bytes = fs::file_size(twin);
-  EXPECT_EQ(store.prune({kFirst}), bytes);
-  EXPECT_FALSE(fs::exists(twin));
-  expectSound("the twin is gone");
-  EXPECT_EQ(store.prune({kFirst}), 0u);
-
-  fs::remove(file(kFirst, ".pack"));
-  ASSERT_TRUE(writeCaptureExr(capture_, kFirst, twin));
-  EXPECT_FALSE(store.has(kFirst)) << "a twin alone is no capture";
-  EXPECT_EQ(store.get(kFirst).error().kind, ErrorKind::notFound);
-  EXPECT_EQ(store.inspect(kFirst)->condition, CaptureStore::Condition::missing);
-}
-
 TEST_F(StoreTest, ADamagedCaptureIsSetAsideAndReplacedByTheNextPut) {
   const CaptureStore store = openStore();
   ASSERT_TRUE(store.put(kFirst, capture_));

@@ -15,7 +15,6 @@
 #include "engine/store/deep_colours.h"
 #include "engine/store/distance_model.h"
 #include "engine/store/sample_coder.h"
-#include "tests/store/sealed_pack.h"
 #include "tests/store/synthetic_capture.h"
 #include "tests/store/temporary_folder.h"
 
@@ -267,10 +266,9 @@ TEST_F(CodedPack, IsAsTrueAsItsQualityAndAsSmall) {
   ASSERT_TRUE(thereAndBack(capture, kQuality));
   const std::uintmax_t usual = fs::file_size(file());
   ASSERT_TRUE(thereAndBack(capture, kLosslessColours));
-  const std::uintmax_t lossless = fs::file_size(file());
-  ASSERT_TRUE(writeCapturePack(capture, kPackKey, file()));
-  EXPECT_LT(usual, lossless);
-  EXPECT_LT(lossless, fs::file_size(file()));
+  EXPECT_LT(usual, fs::file_size(file()));
+  EXPECT_LT(fs::file_size(file()), 15 * capture.sampleCount())
+      << "row, distance, colour and roles as they are";
 }
 
 TEST_F(CodedPack, IsTheSameBytesEachTime) {
@@ -281,17 +279,6 @@ TEST_F(CodedPack, IsTheSameBytesEachTime) {
   EXPECT_EQ(*first, *readFile(file()));
 }
 
-TEST_F(CodedPack, StandsBesidePlainOnesInAStore) {
-  const auto store = CaptureStore::open(folder_ / "captures");
-  ASSERT_TRUE(store);
-  const Capture capture = smoothly(syntheticCapture({48, 40, true, true, 3, true}));
-  ASSERT_TRUE(writeCapturePack(capture, kPackKey, store->packFile(kPackKey))) << "as earlier versions did";
-  EXPECT_EQ(store->inspect(kPackKey, true)->condition, CaptureStore::Condition::sound);
-  EXPECT_EQ(*store->get(kPackKey), capture);
-  ASSERT_TRUE(store->put(kPackKey, capture, {}, kQuality));
-  EXPECT_EQ(withColoursOf(*store->get(kPackKey), capture), capture);
-}
-
 TEST_F(CodedPack, StoppedIsNotThere) {
   std::stop_source stop;
   stop.request_stop();
@@ -299,6 +286,16 @@ TEST_F(CodedPack, StoppedIsNotThere) {
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, ErrorKind::cancelled);
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+/// Gives changed bytes the checksum that they need to be believed.
+void seal(std::vector<std::byte>& pack) {
+  const std::size_t checked = pack.size() - 16;
+  const std::uint64_t fileBytes = pack.size();
+  std::memcpy(pack.data() + 32, &fileBytes, sizeof fileBytes);
+  const ContentKey checksum = Hasher().bytes(pack.data(), checked).finish();
+  std::memcpy(pack.data() + checked, &checksum.high, 8);
+  std::memcpy(pack.data() + checked + 8, &checksum.low, 8);
 }
 
 TEST_F(CodedPack, ForgedIsRefusedOrACapture) {
@@ -316,7 +313,7 @@ TEST_F(CodedPack, ForgedIsRefusedOrACapture) {
       const std::byte values[] = {std::byte(0), std::byte(0xff), std::byte(0x7f),
                                   bytes[at] ^ std::byte(1u << (random() % 8))};
       bytes[at] = values[random() % 4];
-      test::seal(bytes);
+      seal(bytes);
       writeQuickly(file(), bytes);
       const auto read = readCapturePack(file());
       if (read) {
@@ -337,7 +334,7 @@ TEST_F(CodedPack, OfAHugeEmptyPictureIsRefusedUnlessItsFileIsAsLarge) {
   const std::uint32_t huge = 65535;
   std::memcpy(bytes.data() + 56 + 64, &huge, 4);  // columns
   std::memcpy(bytes.data() + 56 + 68, &huge, 4);  // rows
-  test::seal(bytes);
+  seal(bytes);
   writeQuickly(file(), bytes);
   const auto read = readCapturePack(file());
   ASSERT_FALSE(read);
@@ -363,7 +360,7 @@ TEST_F(CodedPack, OfDisplaysHasPictures) {
   ASSERT_TRUE(writeDisplayPack(smoothly(everyShape().front()), kPackKey, file(), kQuality, 1));
   std::vector<std::byte> bytes = *readFile(file());
   bytes[56 + 124] = std::byte(kLosslessColours);
-  test::seal(bytes);
+  seal(bytes);
   writeQuickly(file(), bytes);
   const auto read = readCapturePack(file());
   ASSERT_FALSE(read);

@@ -64,7 +64,6 @@ bool hasSensibleSize(std::span<const std::byte> file) {
 Status find() {
   auto file = BlockFileReader::of(state.pack, "", BlockFileKind::capture);
   if (!file) return tl::unexpected(file.error());
-  if (file->version() == kPlainCapture) return {};
   while (!file->atEnd()) {
     Picture picture;
     picture.file.resize(file->nextSize());

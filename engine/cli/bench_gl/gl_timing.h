@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/result.h"
-#include "engine/pipeline/packed_walk.h"
+#include "engine/bench/packed_walk.h"
 
 namespace acentric::cli {
 
