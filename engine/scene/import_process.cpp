@@ -159,8 +159,11 @@ Status verdict(int status, const Listener& heard, const ImportHost& host, const 
 Result<fs::path> importerProgram(const ImportHost& host) {
   std::error_code error;
   fs::path program = host.importer;
-  if (program.empty())
-    program = fs::read_symlink("/proc/self/exe", error).parent_path() / "acentric-importer";
+  if (program.empty()) {
+    const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+    const fs::path installed = (folder / "../libexec/acentric/acentric-importer").lexically_normal();
+    program = fs::exists(installed, error) ? installed : folder / "acentric-importer";
+  }
   if (::access(program.c_str(), X_OK) != 0)
     return fail(ErrorKind::notFound,
                 "the importer program is missing or cannot be run; install it beside this program",
