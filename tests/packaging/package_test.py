@@ -81,7 +81,7 @@ class Package(unittest.TestCase):
         expected |= {f"share/locale/{language}/LC_MESSAGES/acentric.mo" for language in (SOURCE / "po/LINGUAS").read_text().split()}
         expected |= {f"share/icons/hicolor/{size}x{size}/apps/acentric.png" for size in (16, 24, 32, 48, 64, 128, 256)}
         expected |= {"share/icons/hicolor/scalable/apps/acentric.svg", "share/applications/acentric-editor.desktop",
-                     "share/mime/packages/acentric.xml", "share/metainfo/acentric-editor.metainfo.xml"}
+                     "share/mime/packages/acentric.xml", "share/lintian/overrides/acentric", "share/metainfo/acentric-editor.metainfo.xml"}
         expected |= {f"share/man/man1/{page}.1.gz" for page in self.pages()}
         for name in ("acentric", "acentric-editor"):
             expected |= {f"share/bash-completion/completions/{name}", f"share/fish/vendor_completions.d/{name}.fish",

@@ -50,7 +50,10 @@ struct Cases {
       skipped +=
           fmt::format("      {})\n        ((++i))\n        [[ ${{COMP_WORDS[i]}} != \"=\" ]] || ((++i)) ;;\n",
                       fmt::join(taking, " | "));
-    options += fmt::format("      \"{}\") options+=\" {}\" words=\"{}\" ;;\n", at, fmt::join(names, " "),
+    if (&command != &program)
+      for (const ReferenceOption* option : sharedOptions(program))
+        names.insert(names.end(), option->names.begin(), option->names.end());
+    options += fmt::format("      \"{}\") options=\"{}\" words=\"{}\" ;;\n", at, fmt::join(names, " "),
                            fmt::join(lastNamesBelow(command), " "));
     for (std::size_t i = 0; i < command.positionals.size(); ++i)
       if (const std::string offered = offer(command.positionals[i]); !offered.empty())
@@ -58,13 +61,6 @@ struct Cases {
                                    command.positionals[i].several ? "*" : std::to_string(i), offered);
   }
 };
-
-std::string namesOf(const ReferenceCommand& program) {
-  std::vector<std::string> names;
-  for (const ReferenceOption& option : program.options)
-    names.insert(names.end(), option.names.begin(), option.names.end());
-  return fmt::format("{}", fmt::join(names, " "));
-}
 
 }  // namespace
 
@@ -75,7 +71,7 @@ std::string bashCompletion(const ReferenceCommand& program) {
 
 {function}() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}}
-  local command="" place=0 taken="" words="" options="{names}" files="" i
+  local command="" place=0 taken="" words="" options="" files="" i
   # --option=value comes as three words.
   if [[ $current == "=" ]]; then
     current=""
@@ -108,9 +104,9 @@ std::string bashCompletion(const ReferenceCommand& program) {
 complete -F {function} {name}
 )bash",
                      fmt::arg("name", program.name), fmt::arg("function", functionNameOf(program)),
-                     fmt::arg("names", namesOf(program)), fmt::arg("commands", cases.commands),
-                     fmt::arg("skipped", cases.skipped), fmt::arg("values", cases.values),
-                     fmt::arg("options", cases.options), fmt::arg("positionals", cases.positionals));
+                     fmt::arg("commands", cases.commands), fmt::arg("skipped", cases.skipped),
+                     fmt::arg("values", cases.values), fmt::arg("options", cases.options),
+                     fmt::arg("positionals", cases.positionals));
 }
 
 }  // namespace acentric::cli

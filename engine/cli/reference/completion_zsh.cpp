@@ -48,10 +48,8 @@ std::string function(const ReferenceCommand& command, const ReferenceCommand& pr
   if (!command.commands.empty()) text += "  local context state line\n  typeset -A opt_args\n";
   text += command.commands.empty() ? "  _arguments -s" : "  _arguments -C -s";
   for (const ReferenceOption& option : command.options) text += specifications(option);
-  if (&command != &program)  // whose options may be given after any command
-    for (const ReferenceOption& option : program.options)
-      if (option.names.back() != "--help" && option.names.back() != "--version")
-        text += specifications(option);
+  if (&command != &program)
+    for (const ReferenceOption* option : sharedOptions(program)) text += specifications(*option);
   for (const ReferenceOption& positional : command.positionals)
     text += " \\\n    " + quoted(fmt::format("{}:{}:{}", positional.several ? "*" : "",
                                              positional.names.front(), action(positional)));

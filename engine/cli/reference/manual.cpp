@@ -121,8 +121,8 @@ std::string heading(const ReferenceCommand& command) {
   std::string summary, rest;
   std::getline(lines, summary);
   if (summary.ends_with(".")) summary.pop_back();
-  std::string text = fmt::format(".TH {} 1 \"\" \"Acentric {}\" \"Manual of Acentric\"\n.nh\n", roff(title),
-                                 ACENTRIC_VERSION);
+  std::string text = fmt::format(".TH {} 1 \"\" \"Acentric {}\" \"Manual of Acentric\"\n.nh\n.ad l\n",
+                                 roff(title), ACENTRIC_VERSION);
   text += fmt::format(".SH NAME\n{} \\- {}", roff(name), line(summary));
   text += ".SH SYNOPSIS\n" + synopsis(command);
   text += ".SH DESCRIPTION\n" + line(sentence(summary));
@@ -143,9 +143,7 @@ std::string commandPage(const ReferenceCommand& command, const ReferenceCommand&
     if (!below.examples.empty()) text += ".PP\n" + examples(below);
   }
   std::vector<std::string> shared;
-  for (const ReferenceOption& option : program.options)
-    if (option.names.back() != "--help" && option.names.back() != "--version")
-      shared.push_back(bold(option.names.back()));
+  for (const ReferenceOption* option : sharedOptions(program)) shared.push_back(bold(option->names.back()));
   text += fmt::format(".SH OPTIONS OF ALL COMMANDS\n{} are described in {}.\n", list(shared),
                       reference(pageName(program.name)));
   if (!command.examples.empty()) text += ".SH EXAMPLES\n" + examples(command);

@@ -106,6 +106,13 @@ Status write(const fs::path& file, const std::string& text) {
 
 ReferenceCommand describe(CLI::App& app) { return describe(app, ""); }
 
+std::vector<const ReferenceOption*> sharedOptions(const ReferenceCommand& program) {
+  std::vector<const ReferenceOption*> options;
+  for (const ReferenceOption& option : program.options)
+    if (option.names.back() != "--help" && option.names.back() != "--version") options.push_back(&option);
+  return options;
+}
+
 Files filesOf(const ReferenceOption& option) {
   if (option.value == "PROJECT|BUNDLE|WALK") return Files::projectOrWalk;
   if (option.value != "PATH" && option.value != "FILE") return Files::none;

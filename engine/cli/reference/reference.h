@@ -42,11 +42,14 @@ struct ReferenceCommand {
 
 ReferenceCommand describe(CLI::App& app);
 
+/// Options of the program that may be given after any command.
+std::vector<const ReferenceOption*> sharedOptions(const ReferenceCommand& program);
+
 /// The kind of file that a value names.
 enum class Files { none, any, project, projectOrWalk };
 Files filesOf(const ReferenceOption& option);
 
-/// "Bash", "fish" and "zsh" look for them there, below a folder such as /usr/share:
+/// bash, fish and zsh look for them there, below a folder such as /usr/share:
 /// bash-completion/completions/NAME, fish/vendor_completions.d/NAME.fish, zsh/vendor-completions/_NAME;
 /// manual pages are man/man1/NAME.1. One page for each command of `app`; commands of commands are on the page
 /// of these. `exitStatus`: what the main page says of it.
