@@ -33,38 +33,38 @@ int main(int argc, char** argv) {
   command
       .add_option(
           "file", options.file,
-          "a project (*.acentric.json), a walk (*.acentric, or the folder of a bundle), or a model for a "
+          "A project (*.acentric.json), a walk (*.acentric, or the folder of a bundle), or a model for a "
           "new project")
       ->type_name("FILE");
   command
       .add_option(
           "--sample", options.sample,
-          "a project to open where no file is named, as the preferences say (default: a copy of the sample "
+          "A project to open where no file is named, as the preferences say (default: a copy of the sample "
           "that is installed)")
       ->type_name("FILE");
   command.add_option("--size", size,
-                     "of the window, as WIDTHxHEIGHT (default: as it was left, within the screen)");
+                     "Of the window, as WIDTHxHEIGHT (default: as it was left, within the screen)");
   command.add_option("--importer", options.importHost.importer,
-                     "program that parses models (default: the one that came with this one)");
+                     "Program that parses models (default: the one that came with this one)");
   command.add_flag("--outside-files", options.importHost.outsideFiles,
-                   "let models name files outside their own folder");
-  command.add_option("--log-ui", options.uiLog, "write where widgets are and what happens, for tests")
+                   "Let models name files outside their own folder");
+  command.add_option("--log-ui", options.uiLog, "Write where widgets are and what happens, for tests")
       ->type_name("FILE");
-  command.add_option("--frame-times", options.frameTimes, "write how long each frame took, as CSV")
+  command.add_option("--frame-times", options.frameTimes, "Write how long each frame took, as CSV")
       ->type_name("FILE");
-  command.add_option("--exit-after", options.exitAfterSeconds, "leave by itself after so many seconds")
+  command.add_option("--exit-after", options.exitAfterSeconds, "Leave by itself after so many seconds")
       ->check(CLI::NonNegativeNumber);
   command.footer(
       "Examples:\n  acentric-editor\n  acentric-editor gallery.acentric.json\n  acentric-editor "
       "gallery.acentric\n  "
       "acentric-editor kitchen.glb");
   std::filesystem::path reference;
-  command.add_option("--reference", reference, "for the build: write the manual page and shell completion")
+  command.add_option("--reference", reference, "For the build: write the manual page and shell completion")
       ->group("");  // hidden
   CLI11_PARSE(command, argc, argv);
   if (!reference.empty()) {
-    const auto written =
-        acentric::cli::writeReference(command, "0, or 1 if no window could be opened.", reference);
+    const auto written = acentric::cli::writeReference(
+        command, "0; 1 if no window could be opened; more if options are wrong.", reference);
     if (!written) std::fprintf(stderr, "acentric-editor: %s\n", written.error().describe().c_str());
     return written ? 0 : 1;
   }

@@ -68,8 +68,8 @@ void addReferenceCommand(CLI::App& app, Chosen& chosen) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Acentric: walkthroughs made of acentric panorama views (APV)\nimport a scene, lay cameras over its "
-      "floor, bake, walk",
+      "Walkthroughs made of acentric panorama views (APV)\nImport a scene, lay cameras over its floor, bake, "
+      "walk",
       "acentric"};
   app.require_subcommand(1);
   app.fallthrough();

@@ -98,13 +98,14 @@ std::string entry(const ReferenceOption& option) {
   return text;
 }
 
-/// `heading`: ".SH" of a page's command, ".SS" of a command below it.
+/// Of a command `below` that of the page, they follow without a heading.
 std::string entries(const ReferenceCommand& command, bool below) {
   std::string text;
   if (!command.positionals.empty() && !below) text += ".SH ARGUMENTS\n";
   for (const ReferenceOption& positional : command.positionals) text += entry(positional);
   if (!command.options.empty() && !below) text += ".SH OPTIONS\n";
-  for (const ReferenceOption& option : command.options) text += entry(option);
+  for (const ReferenceOption& option : command.options)
+    if (!below || option.names.back() != "--help") text += entry(option);
   return text;
 }
 

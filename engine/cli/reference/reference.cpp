@@ -64,6 +64,8 @@ ReferenceOption describe(const CLI::Option& option) {
   if (option.get_items_expected_max() > 0) {
     readType(option.get_type_name(), result);
     result.defaultValue = option.get_default_str();
+    if (result.defaultValue.starts_with("["))  // several
+      result.defaultValue = result.defaultValue.substr(1, result.defaultValue.size() - 2);
   }
   result.needs = namesOf(option.get_needs());
   result.excludes = namesOf(option.get_excludes());
