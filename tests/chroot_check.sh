@@ -97,8 +97,10 @@ if [[ -n $package ]]; then
     'export DEBIAN_FRONTEND=noninteractive; apt-get -q update && apt-get -q install -y --no-install-recommends ./acentric.deb'
   stage "a walk by the command line" \
     'set -e; cp -r /usr/share/acentric/sample . && mkdir own && cd own
-     acentric new ../sample/gallery.glb -o gallery.acentric.json --samples-per-degree 1 --no-estimate
-     acentric bake gallery.acentric.json && acentric render gallery.acentric.json -o ../view.png --size 480x270
+     acentric new ../sample/gallery.glb -o gallery.acentric.json --samples-per-degree 1 --config a --cell 2 \
+       --outline "-4,-2;-2,-2;-2,0;-4,0" --no-estimate
+     acentric bake gallery.acentric.json
+     acentric render gallery.acentric.json -o ../view.png --size 480x270
      acentric export gallery.acentric.json page --to web'
   [[ -s $system/home/acentric/view.png ]] || die "there is no view.png"
   # On a screen of its own, whose picture lies in a file: nothing but the X server is added.
