@@ -108,8 +108,9 @@ if [[ -n $package ]]; then
     'set -e; export DEBIAN_FRONTEND=noninteractive; apt-get -q install -y --no-install-recommends xvfb > /dev/null
      Xvfb :7 -screen 0 1600x900x24 -fbdir /home/acentric & sleep 3
      export DISPLAY=:7; $(sed -n "s/^Exec=\([^ ]*\).*/\1/p" /usr/share/applications/acentric-editor.desktop) \
-       --log-ui /home/acentric/ui.log --size 1600x900 --exit-after 60 & editor=$!
-     sleep 50; cp Xvfb_screen0 screen.xwd; wait $editor'
+       --log-ui /home/acentric/ui.log --size 1600x900 --exit-after 600 & editor=$!
+     for ((i = 0; i < 300; ++i)); do grep -qs "event walkpreview" ui.log && break; sleep 1; done
+     grep -q "event walkpreview" ui.log; sleep 1; cp Xvfb_screen0 screen.xwd; kill -INT $editor; wait $editor'
   [[ -f $system/root/.local/share/acentric/gallery/gallery.acentric.json ]] || die "the editor made no copy of the sample"
   say "== The package works on a bare Debian 12: $system/home/acentric has view.png and screen.xwd (--keep)."
   exit 0
