@@ -49,10 +49,10 @@ std::vector<const ReferenceOption*> sharedOptions(const ReferenceCommand& progra
 enum class Files { none, any, project, projectOrWalk };
 Files filesOf(const ReferenceOption& option);
 
-/// bash, fish and zsh look for them there, below a folder such as /usr/share:
-/// bash-completion/completions/NAME, fish/vendor_completions.d/NAME.fish, zsh/vendor-completions/_NAME;
-/// manual pages are man/man1/NAME.1. One page for each command of `app`; commands of commands are on the page
-/// of these. `exitStatus`: what the main page says of it.
+/// Writes into a folder such as /usr/share where man, bash, fish and zsh look: man/man1/NAME.1,
+/// bash-completion/completions/NAME, fish/vendor_completions.d/NAME.fish, zsh/vendor-completions/_NAME. Each
+/// command of `app` has a page, with the commands below it. `exitStatus`: what the program's page says of it.
+/// Stops at the first file that cannot be written.
 Status writeReference(CLI::App& app, const std::string& exitStatus, const std::filesystem::path& share);
 
 }  // namespace acentric::cli
