@@ -119,8 +119,8 @@ void drawStart(PanelContext& context) {
   Preferences& preferences = context.session().preferences();
   heading(context, tr("Start"));
   const std::array<ui::Choice, 3> kChoices = {
-      ui::Choice{tr("The sample project"), tr("Where the program was started with one, as by ./run."), true,
-                 ""},
+      ui::Choice{tr("The sample project"),
+                 tr("Where one is installed, or the program was started with one, as by ./run."), true, ""},
       ui::Choice{tr("The last project"), tr("The sample, while there is none."), true, ""},
       ui::Choice{tr("Nothing"), "", true, ""}};
   int startUp = int(preferences.startUp);

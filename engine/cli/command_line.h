@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/cli/commands.h"
+#include "engine/cli/reference/reference.h"  // how paths are called
 
 namespace acentric::cli {
 

@@ -18,6 +18,9 @@ using namespace acentric::cli;
 
 /// As shells say of a program that SIGINT ended.
 constexpr int kFailed = 1, kUsage = 2, kInterrupted = 130;
+constexpr const char* kExitStatus =
+    "0 if the command succeeded; 1 if it failed, if `validate` found damage, or if `fit` found nothing that "
+    "keeps to the number; 2 if options are wrong; 130 after Ctrl+C.";
 
 int finish(const Result<Report>& result, bool json) {
   finishProgress();
@@ -46,12 +49,28 @@ Result<Report> runWithinMemory(const Chosen& chosen, const Common& common) try {
               "there is not enough memory for this: close other programs, or make the scene smaller");
 }
 
+/// For the build: hidden, since it tells nothing that the help does not.
+void addReferenceCommand(CLI::App& app, Chosen& chosen) {
+  CLI::App* const command = app.add_subcommand("reference", "Write manual pages and shell completion");
+  const auto share = std::make_shared<std::filesystem::path>();
+  command->group("")->footer("");
+  command->add_option("share", *share, "Folder that becomes share of an installation")->required();
+  command->callback([&app, &chosen, share] {
+    chosen.run = [&app, share](const Common&) -> Result<Report> {
+      if (Status written = writeReference(app, kExitStatus, *share); !written)
+        return tl::unexpected(written.error());
+      return Report();
+    };
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Acentric: walkthroughs made of acentric panorama views (APV)\nimport a scene, lay cameras over its "
-      "floor, bake, walk"};
+      "Walkthroughs made of acentric panorama views (APV)\nImport a scene, lay cameras over its floor, bake, "
+      "walk",
+      "acentric"};
   app.require_subcommand(1);
   app.fallthrough();
   app.set_version_flag("--version", ACENTRIC_VERSION);
@@ -91,6 +110,7 @@ int main(int argc, char** argv) {
   addFirstViewCommand(*app.get_subcommand("bench"), chosen);
   addNumericsCommand(*app.get_subcommand("bench"), chosen);
   addFunctionsCommand(*app.get_subcommand("bench"), chosen);
+  addReferenceCommand(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

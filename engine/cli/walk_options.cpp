@@ -79,7 +79,9 @@ void addRender(CLI::App& app, Chosen& chosen) {
       "  acentric render kitchen.acentric.json --mode sources -o cameras.png\n"
       "  acentric render kitchen.acentric.json --renderer truth -o truth.png",
       runRender);
-  c->add_option("project", o.project, "Project file, or the folder of a bundle, or a walk")->required();
+  c->add_option("project", o.project, "Project file, or the folder of a bundle, or a walk")
+      ->required()
+      ->type_name("PROJECT|BUNDLE|WALK");
   addStoreyOption(*c, chosen, "the one at the eye");
   addPresetOption(*c, chosen);
   addMemory(*c, chosen);

@@ -5,6 +5,7 @@
 
 #include "engine/base/contract.h"
 #include "engine/base/file.h"
+#include "engine/base/program_file.h"
 #include "engine/image/files/image_files.h"
 #include "engine/image/png.h"
 
@@ -15,9 +16,7 @@ namespace {
 /// The module, loaded with the first call. It stays.
 Result<const ImageFiles*> imageFiles() {
   static const Result<const ImageFiles*> files = []() -> Result<const ImageFiles*> {
-    std::error_code error;
-    const fs::path module = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() /
-                            "lib/acentric/acentric-image-files.so";
+    const fs::path module = programFile("acentric-image-files.so");
     if (void* const library = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL))
       if (const void* const symbol = dlsym(library, kImageFilesSymbol))
         return static_cast<const ImageFiles*>(symbol);

@@ -45,7 +45,7 @@ struct ImportOptions {
 
 /// How the child is run.
 struct ImportHost {
-  std::filesystem::path importer;     ///< empty = `acentric-importer` beside the running program
+  std::filesystem::path importer;     ///< empty = the one that came with this program
   std::filesystem::path cacheFolder;  ///< empty = userCacheFolder()/"scenes"
   double timeLimitSeconds = 600;
   /// That a scene may take: while it is read, and by what its file says of it, opened.

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/base/program_file.h"
 #include "engine/base/spawn.h"
 #include "engine/scene/importer_protocol.h"
 
@@ -157,10 +158,8 @@ Status verdict(int status, const Listener& heard, const ImportHost& host, const 
 }  // namespace
 
 Result<fs::path> importerProgram(const ImportHost& host) {
-  std::error_code error;
   fs::path program = host.importer;
-  if (program.empty())
-    program = fs::read_symlink("/proc/self/exe", error).parent_path() / "acentric-importer";
+  if (program.empty()) program = programFile("acentric-importer");
   if (::access(program.c_str(), X_OK) != 0)
     return fail(ErrorKind::notFound,
                 "the importer program is missing or cannot be run; install it beside this program",

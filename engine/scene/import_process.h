@@ -5,7 +5,8 @@
 
 namespace acentric {
 
-/// The importer to run for `host`: the one named, else `acentric-importer` beside the running program.
+/// The importer to run for `host`: the one named, else the one that is installed or built with the running
+/// program: in ../libexec/acentric or beside it.
 Result<std::filesystem::path> importerProgram(const ImportHost& host);
 
 /// Returns when the importer has written `output`, or with the reason why it did not. The process is gone by

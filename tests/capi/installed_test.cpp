@@ -216,8 +216,9 @@ TEST(Library, IsInstalledLinkedAndRunByTheVeryCommandsOfItsDocument) {
                   script, "bash", here.string(), home.string()});
   ASSERT_EQ(followed.exitCode, 0) << followed.output << followed.errors;
   EXPECT_FALSE(ppm(here / "frame.ppm").empty());
-  for (const char* name : {"bin/acentric", "bin/acentric-editor", "bin/acentric-importer",
-                           "lib/libacentric_runtime.so.1", "share/acentric/web/index.html"})
+  for (const char* name : {"bin/acentric", "bin/acentric-editor", "libexec/acentric/acentric-importer",
+                           "libexec/acentric/acentric-image-files.so", "lib/libacentric_runtime.so.1",
+                           "share/acentric/web/index.html"})
     EXPECT_TRUE(fs::exists(home / "acentric" / name)) << name;
   const auto version = runProcess({(home / "acentric/bin/acentric").string(), "--version"});
   EXPECT_EQ(version.exitCode, 0) << version.errors;
