@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/round_to.h"
 #include "engine/inspect/placement_checks.h"
 
 namespace acentric {
@@ -24,8 +25,6 @@ double lackOf(const glm::dvec3& centre, const CrowdingRules& rules, const Surfac
   if (rules.trustSides && backs >= kInside * kSides) return 2;
   return 1 - nearest / rules.cameraRoom;
 }
-
-double roundTo(double value, double step) { return step > 0 ? std::round(value / step) * step : value; }
 
 }  // namespace
 

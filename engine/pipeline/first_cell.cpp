@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "engine/geometry/round_to.h"
 #include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/surroundings.h"
 #include "engine/pipeline/new_project.h"
@@ -25,8 +26,6 @@ constexpr double kMostFirstRings = 2000;
 /// are a share of the ground.
 constexpr double kWindowOverLayout = 3, kLeastWindow = 200, kMostPlacesAcross = 500;
 constexpr double kFinestStep = 2;  ///< metres between places looked at, for cells of usual sizes
-
-double roundTo(double value, double step) { return std::round(value / step) * step; }
 
 /// Area of lattice per ring, in units of the squared edge length.
 double areaPerRing(Configuration configuration) {

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "engine/base/stopwatch.h"
+#include "engine/geometry/round_to.h"
 #include "engine/inspect/lattice_shift.h"
 #include "engine/inspect/walkable_outline.h"
 #include "engine/pipeline/camera_path.h"
@@ -24,8 +25,6 @@
 namespace acentric {
 namespace fs = std::filesystem;
 namespace {
-
-double roundTo(double value, double step) { return std::round(value / step) * step; }
 
 /// Three significant decimals: a value that a person can read and change.
 float tidy(float value) { return std::stof(fmt::format("{:.3g}", value)); }

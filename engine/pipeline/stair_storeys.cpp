@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/geometry/conventions.h"
+#include "engine/geometry/round_to.h"
 #include "engine/pipeline/pipeline.h"
 #include "engine/pipeline/project_walks.h"
 #include "engine/pipeline/scene_probe.h"
@@ -16,8 +17,6 @@ namespace {
 constexpr double kWidestRow = 2.0;   // metres: wider pieces have several rows of rings
 constexpr double kWiderRing = 1.35;  // a single ring may be so many times wider than the piece
 constexpr double kLevelRise = 0.01;  // metres per metre: a landing, which rises nowhere in particular
-
-double roundTo(double value, double step) { return std::round(value / step) * step; }
 
 /// A piece's box along and across its slope.
 struct AlignedBox {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/geometry/conventions.h"
+#include "engine/geometry/round_to.h"
 
 namespace acentric {
 namespace {
@@ -14,8 +15,6 @@ constexpr double kFarthest = 40, kTooNear = 1.5;  // metres
 constexpr double kRoom = 0.8;                     // metres around a person
 constexpr int kYaws = 24;
 constexpr std::size_t kMostPlaces = 60;
-
-double roundTo(double value, double step) { return std::round(value / step) * step; }
 
 /// Free distance around an eye, at knee, hip and eye height, metres, at most `most`.
 double clearance(const RayScene& rays, const glm::dvec3& eye, double eyeHeight, double most) {

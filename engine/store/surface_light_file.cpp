@@ -19,7 +19,7 @@ constexpr std::uint64_t kMaxSamples = std::uint64_t(1) << 31;
 /// Resolution and sidedness of each triangle.
 constexpr std::uint64_t kTriangleBytes = 3;
 template <class AnyLight>
-auto triangleLanes(AnyLight& light) {
+auto resolutionLanes(AnyLight& light) {
   return std::array{laneOf(light.resolution), laneOf(light.hasBack)};
 }
 
@@ -74,7 +74,7 @@ Status writeLight(const SurfaceLight& light, const ContentKey& key, const std::f
   file.describe(static_cast<std::uint64_t>(stream.size()));
   file.describe(static_cast<std::uint8_t>(unused));
   file.claim(claimOf(light.resolution.size(), light.light.size()));
-  if (Status added = file.addRecords(triangleLanes(light), light.resolution.size()); !added) return added;
+  if (Status added = file.addRecords(resolutionLanes(light), light.resolution.size()); !added) return added;
   if (Status added = file.addStream(stream); !added) return added;
   return file.write(path);
 }
@@ -94,7 +94,7 @@ Result<Keyed<SurfaceLight>> readLight(const std::filesystem::path& path) {
   SurfaceLight light;
   light.resolution.resize(triangles);
   light.hasBack.resize(triangles);
-  if (Status read = file->nextRecords(triangleLanes(light), triangles); !read)
+  if (Status read = file->nextRecords(resolutionLanes(light), triangles); !read)
     return tl::unexpected(read.error());
   light.firstSample.push_back(0);
   std::uint64_t next = 0;
