@@ -64,7 +64,9 @@ void drawModel(PanelContext& context, const NewProjectDraft& draft) {
   Session& session = context.session();
   const Scene& scene = *session.built()->scene;
   const glm::dvec3 size(scene.bounds.size());
-  ui::keyValue(tr("Model"), trf("{:.3g} x {:.3g} m in plan, {:.3g} m high", size.x, size.y, size.z),
+  ui::keyValue(tr("Model"),
+               trf("{} x {} in plan, {} high", ui::formatMetres(size.x), ui::formatMetres(size.y),
+                   ui::formatMetres(size.z)),
                kDialogLabelWidth);
   ImportOptions import = session.project().import;
   bool again = upAxisField(import.up, kDialogLabelWidth).finished;

@@ -80,7 +80,7 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
                            : trf("{}, a camera: {}", nameOf(*region), engineText(finding->reason));
       }
       const bool free = region != nullptr && region->id.slot == kFreeSlot;
-      problem.fix = ProblemFix{tr("Fit cells"), "layout.fit"};
+      if (!free) problem.fix = ProblemFix{tr("Fit cells"), "layout.fit"};
       if (finding->push)
         problem.fix = ProblemFix{free ? trf("Move {:.2f} m", glm::length(*finding->push))
                                       : trf("Shift all cells {:.2f} m", glm::length(*finding->push)),

@@ -163,6 +163,26 @@ TEST(Problems, APlacementWarningIsPushedOut) {
   EXPECT_EQ(moved.project.layout().latticeOrigin, facts.built->project.layout().latticeOrigin);
 }
 
+TEST(Problems, OfOneCameraOnlyTheWorstIsTold) {
+  ProblemFacts facts = sound();
+  const PlacementFinding inside{PlacementFlaw::insideSolid, Severity::error, {0}, -1, {1, 1}, "inside", {}};
+  const PlacementFinding low{PlacementFlaw::floorTooLow, Severity::warning, {0}, -1, {1, 1}, "too low", {}};
+  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {inside, low}; });
+  const Problem problem = only(facts);
+  EXPECT_TRUE(says(problem, "a camera: inside")) << problem.text;
+  ASSERT_TRUE(problem.fix.has_value()) << "no push clears it, another lattice may";
+  EXPECT_EQ(problem.fix->action, "layout.fit");
+}
+
+TEST(Problems, CamerasThatShowWhatTheirCellsNeedAreNone) {
+  ProblemFacts facts = sound();
+  PlacementFinding finding{
+      PlacementFlaw::noFloor, Severity::note, {0}, -1, {1, 1}, "nothing is below it", {}};
+  finding.suffices = true;
+  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {finding}; });
+  EXPECT_TRUE(findProblems(facts).empty());
+}
+
 TEST(Problems, NotesOfPlacementAreOneLine) {
   ProblemFacts facts = sound();
   change(facts.inspection, [&](Inspection& inspection) {
