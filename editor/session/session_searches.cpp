@@ -119,7 +119,8 @@ void Session::fitToFloor() {
     if (context.stop().stop_requested()) return;
     context.post([this, open, fit, from = buildLayout(laid), to = buildLayout(fit.spec)] {
       if (!from || !to || fit.spec == open->project.layout())
-        return messages_.add(MessageLevel::info, tr("The cells fit the floor already"));
+        return messages_.add(MessageLevel::info,
+                             tr("The cells fit the floor already; smaller ones may fit it better"));
       offerLayout(*open, fit.spec, tr("Fit the cells to the floor"),
                   trf("{} cameras instead of {}; {:.1f} % of the floor lies in cells", to->cameras.size(),
                       from->cameras.size(), 100 * fit.served));

@@ -15,6 +15,11 @@ namespace {
 /// passage.
 constexpr double kStepsOfCell = 8, kPassage = 0.4;
 constexpr int kMostStepsAcross = 150;
+/// But never more than so far apart, in cells' edges; where that takes more than this many, cells are left
+/// out of the best lattice alone, and none of ground that would take more than the last.
+constexpr double kWidestStep = 0.25, kFewPlaces = 3e4, kMostPlaces = 4e6;
+/// Places looked at to see whether the floor stays in one piece, all in all.
+constexpr double kMostLooks = 4e8;
 /// Half as many cameras are worth it if so few of the floor is lost that its share to this power is more than
 /// half.
 constexpr double kServedWorth = 3;
@@ -33,7 +38,9 @@ struct Floor {
       for (const glm::dvec2& corner : loop) low = glm::min(low, corner), high = glm::max(high, corner);
     const double across = std::max(high.x - low.x, high.y - low.y);
     grid.corner = low;
-    grid.step = std::max(std::min(cellSize / kStepsOfCell, kPassage), across / kMostStepsAcross);
+    grid.step = std::min(std::max(std::min(cellSize / kStepsOfCell, kPassage), across / kMostStepsAcross),
+                         kWidestStep * cellSize);
+    if (!((high.x - low.x) * (high.y - low.y) < kMostPlaces * grid.step * grid.step)) return;
     grid.columns = int(std::ceil((high.x - low.x) / grid.step)) + 1;
     grid.rows = int(std::ceil((high.y - low.y) / grid.step)) + 1;
     mask = CellMask(grid.columns, grid.rows);
@@ -87,8 +94,10 @@ double leaveOutBare(LayoutSpec& spec, const Layout& layout, const Floor& floor, 
       bare.push_back(r);
   std::ranges::stable_sort(bare, {}, [&](std::size_t r) { return of[r].size(); });
   int pieces = piecesOf(served);
+  double looks = kMostLooks / double(served.cells.size());
   for (const std::size_t r : bare) {
-    if (has - double(of[r].size()) < least || spec.removed.size() + 1 == layout.regions.size()) break;
+    if (looks-- < 0 || has - double(of[r].size()) < least || spec.removed.size() + 1 == layout.regions.size())
+      break;
     CellMask without = served;
     for (const std::size_t cell : of[r]) without.cells[cell] = 0;
     const int left = piecesOf(without);
@@ -144,6 +153,8 @@ LatticeFit fitLattice(const LayoutSpec& spec, const LatticeFitOptions& options, 
   LatticeFit best{spec, 0};
   if (spec.outline.empty()) return best;
   const Floor floor(spec.outline, spec.cellSize);
+  const std::size_t places = floor.mask.cells.size();
+  const bool few = places > 0 && double(places) <= kFewPlaces;
   const auto first = buildLayout(own);
   if (!first || first->regions.empty()) return best;
   const std::vector<double> turns = turnsFor(own);
@@ -153,7 +164,7 @@ LatticeFit fitLattice(const LayoutSpec& spec, const LatticeFitOptions& options, 
   const auto attempt = [&](LayoutSpec tried, double worth) {
     const auto whole = buildLayout(tried);
     if (!whole || whole->regions.empty()) return;
-    const double served = leaveOutBare(tried, *whole, floor, options.mostLost);
+    const double served = few ? leaveOutBare(tried, *whole, floor, options.mostLost) : 1;
     const auto layout = tried.removed.empty() ? whole : buildLayout(tried);
     if (!layout || layout->regions.empty() || !(served > 0)) return;
     const double cost = (double(layout->cameras.size()) + crowding(*layout, options.shift.crowding, probe)) /
@@ -176,6 +187,9 @@ LatticeFit fitLattice(const LayoutSpec& spec, const LatticeFitOptions& options, 
         attempt(turned, turn == own.rotationRadians ? 1 : kTurnWorth);
       }
   }
+  if (!few && places > 0)
+    if (const auto whole = buildLayout(best.spec))
+      best.served = leaveOutBare(best.spec, *whole, floor, options.mostLost);
   return best;
 }
 

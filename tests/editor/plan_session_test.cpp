@@ -54,7 +54,8 @@ TEST_F(PlanSessionTest, FittingToTheFloorLaysCellsAsANewProjectDoes) {
   run("layout.fit");
   waitFor([&] { return !session_->searching().running(); });
   EXPECT_EQ(session_->project().layout(), fresh);
-  EXPECT_EQ(session_->messages().all().back().text, "The cells fit the floor already");
+  EXPECT_EQ(session_->messages().all().back().text,
+            "The cells fit the floor already; smaller ones may fit it better");
   session_->apply(setLattice(session_->project(), {{0.7, 0.3}, radians(17.0), fresh.cellSize}, "turn"));
   settle();
   const std::size_t cameras = session_->built()->layout->cameras.size();

@@ -95,6 +95,18 @@ TEST(LatticeFit, LeavesOutNoMoreFloorThanItMay) {
   }
 }
 
+TEST(LatticeFit, LeavesOutNoMoreThanItMayOfALongStripOfManyCells) {
+  BoxWorld open{{{{-10, -10, -1}, {4000, 50, 0}}}, {}};
+  const LayoutSpec spec = cellsOver({{{0, 0}, {1200, 0}, {1200, 7}, {0, 7}}}, 2);
+  const LatticeFit fit = fitLattice(spec, {}, open.probe());
+  const Layout layout = buildLayout(fit.spec).value();
+  int served = 0, places = 0;
+  for (double x = 0.5; x < 1200; x += 1.1)
+    for (double y = 0.1; y < 7; y += 0.4) ++places, served += layout.regionAt({x, y}) ? 1 : 0;
+  EXPECT_NEAR(fit.served, double(served) / places, 0.02);
+  EXPECT_GT(double(served) / places, 0.95);
+}
+
 TEST(LatticeFit, KeepsTheSpecWhereNothingIsPlacedAndWhenStopped) {
   const BoxWorld room = BoxWorld::room(8, 6, 3);
   const LayoutSpec empty = cellsOver({}, 2);
