@@ -27,15 +27,21 @@ constexpr double kTurnWorth = 0.95;    // of the cost at the spec's own rotation
 constexpr double kLeastAligned = 0.3;  // of the walls: else they have no common way
 constexpr double kTurnAccuracy = 0.5;  // degrees
 
+/// Lowest and highest corner of the box around an outline.
+std::pair<glm::dvec2, glm::dvec2> boxAround(const Outline& outline) {
+  glm::dvec2 low = outline.loops.front().front(), high = low;
+  for (const auto& loop : outline.loops)
+    for (const glm::dvec2& corner : loop) low = glm::min(low, corner), high = glm::max(high, corner);
+  return {low, high};
+}
+
 /// The outline's inside, in square cells.
 struct Floor {
   ProbeGrid grid;
   CellMask mask;
 
   Floor(const Outline& outline, double cellSize) {
-    glm::dvec2 low = outline.loops.front().front(), high = low;
-    for (const auto& loop : outline.loops)
-      for (const glm::dvec2& corner : loop) low = glm::min(low, corner), high = glm::max(high, corner);
+    const auto [low, high] = boxAround(outline);
     const double across = std::max(high.x - low.x, high.y - low.y);
     grid.corner = low;
     grid.step = std::min(std::max(std::min(cellSize / kStepsOfCell, kPassage), across / kMostStepsAcross),
@@ -171,6 +177,13 @@ LatticeFit fitLattice(const LayoutSpec& spec, const LatticeFitOptions& options, 
                         std::pow(served, kServedWorth) / worth;
     if (cost < least * (1 - 1e-9)) least = cost, best = {std::move(tried), served};
   };
+  // Whatever the lattice is now, the same places are tried: fitted again, it stays.
+  const auto tidy = [rounding = options.shift.rounding](const glm::dvec2& origin) {
+    return rounding > 0 ? glm::round(origin / rounding) * rounding : origin;
+  };
+  const auto [low, high] = boxAround(spec.outline);
+  const glm::dvec2 corner = tidy(0.5 * (low + high));
+  if (!stop.stop_requested()) attempt(own, 1);
   for (const double turn : turns) {
     LayoutSpec turned = own;
     turned.rotationRadians = turn;
@@ -180,10 +193,7 @@ LatticeFit fitLattice(const LayoutSpec& spec, const LatticeFitOptions& options, 
     for (int i = 0; i < steps; ++i)
       for (int j = 0; j < steps; ++j) {
         if (stop.stop_requested()) return best;
-        turned.latticeOrigin = spec.latticeOrigin + (along * double(i) + across * double(j)) / double(steps);
-        if (options.shift.rounding > 0 && i + j > 0)
-          turned.latticeOrigin =
-              glm::round(turned.latticeOrigin / options.shift.rounding) * options.shift.rounding;
+        turned.latticeOrigin = tidy(corner + (along * double(i) + across * double(j)) / double(steps));
         attempt(turned, turn == own.rotationRadians ? 1 : kTurnWorth);
       }
   }

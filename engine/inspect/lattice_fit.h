@@ -24,8 +24,8 @@ struct LatticeFit {
 /// The spec with the origin, rotation and cells left out at which sum(1 + lack) / served^3 over its cameras
 /// is least; a camera's lack as in crowding(). Turned are the outline's walls' way and across it, if that is
 /// a twentieth better than the spec's own rotation. Of cells with little floor (kLeastFloor) the barest are
-/// left out first, as long as the floor stays in one piece. The spec itself where nothing is placed. Forgets
-/// cells that the spec names. Stopped: the best so far.
+/// left out first, as long as the floor stays in one piece. What is fitted stays. The spec itself where
+/// nothing is placed. Forgets cells that the spec names. Stopped: the best so far.
 LatticeFit fitLattice(const LayoutSpec& spec, const LatticeFitOptions& options, const SurfaceProbe& probe,
                       std::stop_token stop = {});
 

@@ -53,6 +53,16 @@ TEST(LatticeFit, SaysWhichShareOfTheFloorRegionsHave) {
   EXPECT_NEAR(fit.served, double(served) / places, 0.01);
 }
 
+TEST(LatticeFit, StaysWhereItWasFitted) {
+  const BoxWorld room = BoxWorld::room(20, 12, 3);
+  for (const Configuration configuration : {Configuration::a, Configuration::b, Configuration::e}) {
+    const LayoutSpec spec =
+        cellsOver({{{0.2, 0.2}, {19.8, 0.2}, {19.8, 11.8}, {0.2, 11.8}}}, 2.5, configuration);
+    const LayoutSpec once = fitLattice(spec, {}, room.probe()).spec;
+    EXPECT_EQ(fitLattice(once, {}, room.probe()).spec, once) << nameOf(configuration);
+  }
+}
+
 TEST(LatticeFit, TurnsAlongWallsThatStandAskew) {
   BoxWorld open{{{{-50, -50, -1}, {50, 50, 0}}}, {}};
   // Two squares deep and five wide, if they lie along it.
