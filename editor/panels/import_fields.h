@@ -7,7 +7,8 @@
 namespace acentric::editor {
 
 ui::FieldEdit upAxisField(UpAxis& up, float labelWidth);
-/// Typed, not dragged live: each value is a new import. 0 = by the file. True once Enter is pressed on another.
+/// Typed, not dragged live: each value is a new import. 0 = by the file. True once Enter is pressed on
+/// another.
 bool metresPerUnitField(double& metres, float labelWidth);
 
 }  // namespace acentric::editor

@@ -77,8 +77,8 @@ bool liesOnHull(const WalkPlane& plane, const Standing& standing, const FloorLev
   return double(hidden) > kHiddenFloor * double(plane.spots.size());
 }
 
-Result<FloorCandidate> candidateOn(const Bounds& bounds, const ProbeGrid& grid, const WalkableOptions& options,
-                              const SurfaceProbe& probe) {
+Result<FloorCandidate> candidateOn(const Bounds& bounds, const ProbeGrid& grid,
+                                   const WalkableOptions& options, const SurfaceProbe& probe) {
   FloorLevels levels = findFloorLevels(bounds, grid, options.headRoom(), probe);
   std::optional<double> height = options.floorHeight;
   const bool given = !std::isnan(options.floorHeight);

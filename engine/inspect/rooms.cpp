@@ -8,8 +8,8 @@
 namespace acentric {
 namespace {
 
-constexpr int kMostCellsAcross = 512;       ///< along the longer side
-constexpr double kFinestCell = 0.05;  ///< metres
+constexpr int kMostCellsAcross = 512;  ///< along the longer side
+constexpr double kFinestCell = 0.05;   ///< metres
 
 /// The area in square cells, with a border of cells outside it.
 struct Cells {

@@ -37,7 +37,8 @@ struct FirstLayoutLimit {
       around;                       ///< plan: where the part begins that is laid out; none: see near_ground.h
   bool chooseCell = true;           ///< else the spec's own size is kept
   bool chooseConfiguration = true;  ///< likewise; with chooseCell alone
-  /// Where all is laid out, the lattice may be turned and cells with hardly any floor left out (lattice_fit.h).
+  /// Where all is laid out, the lattice may be turned and cells with hardly any floor left out
+  /// (lattice_fit.h).
   bool fit = true;
 };
 
