@@ -244,6 +244,9 @@ std::vector<Problem> findProblems(const ProblemFacts& facts) {
                             100 * *facts.foretoldHoles),
                         {.look = PlanLook::coverage}});
   std::ranges::stable_sort(problems, std::greater(), &Problem::severity);
+  // Nothing else can be judged at a wrong scale.
+  std::ranges::stable_partition(problems,
+                                [](const Problem& p) { return p.fix && p.fix->metresPerUnit.has_value(); });
   return problems;
 }
 

@@ -99,6 +99,13 @@ TEST(Problems, AScaleInDoubtIsAskedAboutOnceAndChangedWithTheLayout) {
   EXPECT_EQ(problem.place.section, "Scene");
   ASSERT_TRUE(problem.fix.has_value());
   EXPECT_EQ(problem.fix->label, "Scale to 0.15");
+  ProblemFacts more = facts;
+  change(more.inspection, [](Inspection& inspection) {
+    inspection.placement.findings = {
+        {PlacementFlaw::insideSolid, Severity::error, {0}, -1, {1, 1}, "inside", {}}};
+  });
+  ASSERT_EQ(findProblems(more).size(), 2U);
+  EXPECT_EQ(findProblems(more).front().fix, problem.fix) << "before what may come of it";
   const Project& project = facts.built->project;
   const Edit edit = changeScale(project, *facts.built->scene, *problem.fix);
   EXPECT_EQ(edit.project.import.metresPerUnit, 0.15);
