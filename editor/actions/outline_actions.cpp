@@ -27,6 +27,18 @@ void addOutlineActions(std::vector<Action>& table) {
        [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
        [](ActionContext& c) { c.session.outlineFromScene(); },
        {}});
+  table.push_back(
+      {"layout.fit",
+       "Plan",
+       trLater("Fit cells to the floor"),
+       {},
+       {},
+       trLater("Moves and turns the lattice and leaves out cells with hardly any floor, so that few cameras "
+               "serve much of it and stand free. Cells that were added, removed or split are laid anew"),
+       false,
+       [](const ActionContext& c) { return withBuilt(c) && !c.session.searching().running(); },
+       [](ActionContext& c) { c.session.fitToFloor(); },
+       {}});
   table.push_back({"outline.simplify",
                    "Plan",
                    trLater("Simplify outline"),

@@ -93,7 +93,7 @@ void drawChecksLegend(ImDrawList& list, const ui::CanvasView& view, const Placem
   };
   add(Severity::error, tr("badly: inside a solid, or too near"));
   add(Severity::warning, tr("deserves a look: floor, nearness"));
-  add(Severity::note, tr("note"));
+  add(Severity::note, tr("note: nothing to mend"));
   if (legend.lines.empty()) legend.lines.push_back({trf("all {} stand free", report.centres), palette::good});
   drawScaleLegend(list, view, legend, font);
 }

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "editor/panels/import_fields.h"
 #include "editor/session/engine_texts.h"
 #include "engine/pipeline/new_project.h"
 #include "ui/text_format.h"
@@ -51,6 +52,39 @@ double derivedCell(const Project& project, Configuration configuration) {
   return firstCellSize(project.layout().outline.area(), configuration);
 }
 
+/// Opens the model anew: what it is laid out on, and for, depends on these.
+void importAgain(Session& session, const NewProjectDraft& draft, const ImportOptions& import) {
+  NewProjectOptions options;
+  options.import = import;
+  session.openNew(draft.model, options);
+}
+
+/// How large the model is, whether that can be, and which way is up: nothing fits where these are wrong.
+void drawModel(PanelContext& context, const NewProjectDraft& draft) {
+  Session& session = context.session();
+  const Scene& scene = *session.built()->scene;
+  const glm::dvec3 size(scene.bounds.size());
+  ui::keyValue(tr("Model"),
+               trf("{} x {} in plan, {} high", ui::formatMetres(size.x), ui::formatMetres(size.y),
+                   ui::formatMetres(size.z)),
+               kDialogLabelWidth);
+  ImportOptions import = session.project().import;
+  bool again = upAxisField(import.up, kDialogLabelWidth).finished;
+  context.log.item("new.up");
+  double metres = scene.report.metresPerUnit;
+  if (metresPerUnitField(metres, kDialogLabelWidth)) import.metresPerUnit = metres, again = true;
+  context.log.item("new.metresPerUnit");
+  const auto inspection = session.inspection();
+  if (inspection && inspection->scale && session.project().import.metresPerUnit == 0) {
+    const ScaleDoubt& doubt = *inspection->scale;
+    ui::wrappedText(ui::palette::warning, trf("Is the scale right? {}.", engineText(doubt.text)));
+    if (ui::button(trf("Scale to {:g}", doubt.metresPerUnit).c_str()))
+      import.metresPerUnit = doubt.metresPerUnit, again = true;
+    context.log.item("new.scale");
+  }
+  if (again) importAgain(session, draft, import);
+}
+
 /// What was found to walk on, how much of it is laid out, and what baking it takes.
 void drawFound(const Session& session, const std::string& name) {
   const Storey& storey = session.project().current();
@@ -62,6 +96,9 @@ void drawFound(const Session& session, const std::string& name) {
         trf(", of which {} are laid out: as much as bakes in about {:g} minutes here, {} captures at "
             "most. Draw a larger or another outline to have more",
             ui::formatArea(laidOut), kUsualBakeMinutes, ui::formatCount(std::uint64_t(kUsualMostCameras)));
+  else if (const std::size_t bare = storey.layout.removed.size(); bare > 0)
+    text += trfMany("; {} cell with hardly any of it is left out",
+                    "; {} cells with hardly any of it are left out", bare, bare);
   ui::wrappedText(ui::palette::muted, trf("{}. All of this can be changed later.", text));
   std::string plan = trf("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
   if (const BakeEstimate* estimate = session.estimate())
@@ -119,13 +156,16 @@ void drawNewProject(PanelContext& context, const DialogKeys& keys) {
   if (!beginDialog(trLater("New project"), 560)) return;
   drawFound(session, draft.model.filename().string());
   ImGui::Dummy({0, 4});
+  drawModel(context, draft);
   drawDraft(context, draft);
   ButtonRow row(context, 2, dialogButtonWidth());
   const bool cancel = row.button(tr("Cancel"), "cancel") || keys.escape;
-  const bool create = row.button(tr("Create"), "create", true) || keys.enter;
+  const bool typed = keys.enter && !ImGui::GetIO().WantTextInput;  // else it ends what is typed
+  const bool create = row.button(tr("Create"), "create", true) || typed;
   if (cancel) session.close();
   if (create) {
     NewProjectOptions options;
+    options.import = session.project().import;
     options.configuration = draft.configuration;
     options.cellSize = draft.derived ? 0 : draft.cellSize;
     options.eyeHeight = draft.eyeHeight;

@@ -268,6 +268,8 @@ void PlanPanel::tellHovered(PanelContext& context, ImDrawList& list,
     if (finding->push)
       text += trf("\nIt would stand free {:.2f} m away, at ({:.2f}, {:.2f}).", glm::length(*finding->push),
                   finding->place.x + finding->push->x, finding->place.y + finding->push->y);
+    if (finding->suffices)
+      text += tr("\nIt shows what its cells need all the same: what it misses nobody sees from there.");
     return ui::tooltip(text);
   }
   if (!pointing) return;

@@ -10,6 +10,7 @@
 #include "editor/commands/storey_edits.h"
 #include "editor/panels/bake_section.h"
 #include "editor/panels/corner_section.h"
+#include "editor/panels/import_fields.h"
 #include "editor/panels/pose_section.h"
 #include "editor/panels/project_field.h"
 #include "editor/panels/settings_parts.h"
@@ -97,6 +98,7 @@ void drawLayout(PanelContext& context, ConfigurationPicker& configurations) {
     ImGui::TextUnformatted(trfMany("{:.1f} m², {} loop", "{:.1f} m², {} loops", spec.outline.loops.size(),
                                    spec.outline.area(), spec.outline.loops.size())
                                .c_str());
+    actionButton(context, "layout.fit", ButtonLook::plain, {});
   }
   drawAdvancedLayout(context);
 }
@@ -186,26 +188,10 @@ void drawImport(PanelContext& context) {
   ui::keyValue(tr("Model"), ui::shortenPath(project.scene.string(), 30), kLabelWidth);
   ui::tooltip(project.scene.string());
   ImportOptions import = project.import;
-  const std::array<ui::Choice, 3> kAxes = {ui::Choice{tr("By the file"), "", true, ""},
-                                           ui::Choice{tr("Y up"), "", true, ""},
-                                           ui::Choice{tr("Z up"), "", true, ""}};
-  int axis = int(import.up);
-  if (const ui::FieldEdit edit = ui::choiceField(tr("Up axis"), kAxes, axis, kLabelWidth)) {
-    import.up = UpAxis(axis);
+  if (const ui::FieldEdit edit = upAxisField(import.up, kLabelWidth))
     applyFieldEdit(context, edit, setImport(project, import, tr("up axis")));
-  }
-  double metres = import.metresPerUnit;
-  // Typed, not dragged live: each value is a new import.
-  ImGui::AlignTextToFramePadding();
-  ui::mutedText(tr("Metres per unit"));
-  ImGui::SameLine(ui::scaled(kLabelWidth));
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputDouble("##metresPerUnit", &metres, 0, 0, metres == 0 ? trPrintf("by the file") : "%.6g",
-                         ImGuiInputTextFlags_EnterReturnsTrue)) {
-    import.metresPerUnit = metres;
+  if (metresPerUnitField(import.metresPerUnit, kLabelWidth))
     context.session().apply(setImport(project, import, tr("metres per unit")));
-  }
-  ui::tooltip(tr("0: by the file, else guessed. Press Enter to import again."));
   bool light = import.defaultLight;
   if (const ui::FieldEdit edit = ui::checkField(tr("Default light"), light, kLabelWidth,
                                                 tr("A sun and a sky where the file has no light."))) {

@@ -9,6 +9,11 @@ namespace acentric::editor {
 
 /// Each "{}" stands for any text, also for another error or a part of one.
 inline constexpr std::array kErrors = {
+    // ScaleDoubt::text
+    trLater("As the model is scaled now, {}; at {} metres per unit that would be {}"),
+    trLater("As the model is scaled now, {} and {}; at {} metres per unit these would be {} and {}"),
+    trLater("it is {} across"), trLater("its steps are {} high"), trLater("its doorways are {} high"),
+    trLater("its storeys are {} high"), trLater("the spaces between its floors and ceilings are {} high"),
     // Files: engine/base
     trLater("holds a NUL character, which no file name does"), trLater("is a folder, not a file"),
     trLater("is larger than the limit of {} MiB"), trLater("cannot be opened for reading"),

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <span>
 #include <string_view>
 
 #include "editor/session/engine_texts.h"
@@ -45,43 +47,57 @@ std::vector<int> regionsOfCameras(const Layout& layout) {
   return regions;
 }
 
+/// Findings that are more than notes, of one centre only the worst.
+std::vector<const PlacementFinding*> toMend(const PlacementReport& report) {
+  std::vector<const PlacementFinding*> findings;
+  std::set<std::pair<double, double>> centres;
+  for (const PlacementFinding& finding : report.findings)
+    if (finding.severity != Severity::note &&
+        (finding.region >= 0 || centres.emplace(finding.place.x, finding.place.y).second))
+      findings.push_back(&finding);
+  return findings;
+}
+
 void addPlacement(Problems& problems, const Inspection& inspection) {
   const Layout& layout = *inspection.layout;
   const auto& findings = inspection.placement.findings;
   const std::size_t notes = std::size_t(inspection.placement.count(Severity::note));
-  if (notes < findings.size()) {
+  const std::vector<const PlacementFinding*> worst = toMend(inspection.placement);
+  if (!worst.empty()) {
     const std::vector<int> regionOf = regionsOfCameras(layout);
-    std::size_t listed = 0;
-    for (const PlacementFinding& finding : findings) {
-      if (finding.severity == Severity::note || listed == kMostOfAKind) break;  // the worst come first
-      ++listed;
-      const int of = finding.region >= 0        ? finding.region
-                     : !finding.cameras.empty() ? regionOf[std::size_t(finding.cameras.front())]
-                                                : -1;
-      Problem problem{finding.severity, engineText(finding.reason),
-                      placeAt(finding.place, layout.spec.cellSize, PlanLook::checks)};
+    const std::size_t listed = std::min(worst.size(), kMostOfAKind);
+    for (const PlacementFinding* finding : std::span(worst).first(listed)) {
+      const int of = finding->region >= 0        ? finding->region
+                     : !finding->cameras.empty() ? regionOf[std::size_t(finding->cameras.front())]
+                                                 : -1;
+      Problem problem{finding->severity, engineText(finding->reason),
+                      placeAt(finding->place, layout.spec.cellSize, PlanLook::checks)};
       const Region* region = of >= 0 ? &layout.regions[std::size_t(of)] : nullptr;
       if (region != nullptr) {
         problem.place.cells = {region->id};
-        problem.text = nameOf(*region) + ": " + engineText(finding.reason);
+        problem.text = finding->region >= 0
+                           ? nameOf(*region) + ": " + engineText(finding->reason)
+                           : trf("{}, a camera: {}", nameOf(*region), engineText(finding->reason));
       }
-      if (finding.push) {
-        const bool free = region != nullptr && region->id.slot == kFreeSlot;
-        problem.fix = ProblemFix{free ? trf("Move {:.2f} m", glm::length(*finding.push))
-                                      : trf("Shift {:.2f} m", glm::length(*finding.push)),
-                                 "", *finding.push, free ? std::optional(region->id.i) : std::nullopt};
-      }
+      const bool free = region != nullptr && region->id.slot == kFreeSlot;
+      if (!free) problem.fix = ProblemFix{tr("Fit cells"), "layout.fit"};
+      if (finding->push)
+        problem.fix = ProblemFix{free ? trf("Move {:.2f} m", glm::length(*finding->push))
+                                      : trf("Shift all cells {:.2f} m", glm::length(*finding->push)),
+                                 "", *finding->push, free ? std::optional(region->id.i) : std::nullopt};
       problems.push_back(std::move(problem));
     }
-    if (const std::size_t more = findings.size() - notes - listed; more > 0)
+    if (const std::size_t more = worst.size() - listed; more > 0)
       problems.push_back({Severity::warning,
                           trf("{} more where cameras or cells stand badly", more),
-                          {.look = PlanLook::checks}});
+                          {.look = PlanLook::checks},
+                          ProblemFix{tr("Fit cells"), "layout.fit"}});
   }
-  if (notes > 0)
+  const std::size_t suffice = std::size_t(std::ranges::count(findings, true, &PlacementFinding::suffices));
+  if (const std::size_t looks = notes - suffice; looks > 0)
     problems.push_back({Severity::note,
                         trfMany("{} centre or cell is worth a look in the placement checks",
-                                "{} centres or cells are worth a look in the placement checks", notes, notes),
+                                "{} centres or cells are worth a look in the placement checks", looks, looks),
                         {.look = PlanLook::checks}});
 }
 
@@ -183,8 +199,8 @@ void addScale(Problems& problems, const ProblemFacts& facts) {
   const auto& doubt = facts.inspection->scale;
   if (!doubt || facts.built->project.import.metresPerUnit > 0) return;
   problems.push_back({Severity::warning,
-                      trf("Is the scale right? {}. If it is right, enter {:g} metres per unit", doubt->text,
-                          facts.built->scene->report.metresPerUnit),
+                      trf("Is the scale right? {}. If it is right, enter {:g} metres per unit",
+                          engineText(doubt->text), facts.built->scene->report.metresPerUnit),
                       {.section = "Scene"},
                       ProblemFix{.label = trf("Scale to {:g}", doubt->metresPerUnit),
                                  .metresPerUnit = doubt->metresPerUnit}});
@@ -228,6 +244,9 @@ std::vector<Problem> findProblems(const ProblemFacts& facts) {
                             100 * *facts.foretoldHoles),
                         {.look = PlanLook::coverage}});
   std::ranges::stable_sort(problems, std::greater(), &Problem::severity);
+  // Nothing else can be judged at a wrong scale.
+  std::ranges::stable_partition(problems,
+                                [](const Problem& p) { return p.fix && p.fix->metresPerUnit.has_value(); });
   return problems;
 }
 

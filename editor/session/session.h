@@ -231,6 +231,8 @@ class Session {
   void findStairs();
   /// The walkable area about the current floor, as `acentric new` finds it.
   void outlineFromScene();
+  /// The lattice where few cameras serve much of the floor and stand well, as `acentric new` lays it.
+  void fitToFloor();
   /// The largest cells whose regions all keep to the project's triangle budget.
   void fitCells();
   /// Splits the cells of e and g that exceed the budget.

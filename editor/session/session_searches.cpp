@@ -5,7 +5,9 @@
 #include "editor/session/engine_texts.h"
 #include "editor/session/session.h"
 #include "engine/inspect/fit.h"
+#include "engine/inspect/lattice_fit.h"
 #include "engine/inspect/refine.h"
+#include "engine/pipeline/scene_probe.h"
 #include "engine/pipeline/stair_storeys.h"
 #include "ui/translate.h"
 
@@ -104,6 +106,26 @@ void Session::offerLayout(const OpenProject& from, const LayoutSpec& spec, const
   Outline& walkable = edit.project.current().walkable;
   if (spec.outline.area() >= walkable.area()) walkable = {};  // all of it is laid out
   if (apply(std::move(edit))) messages_.add(MessageLevel::good, found);
+}
+
+void Session::fitToFloor() {
+  if (!built_ || searching_.running() || walkRefuses(tr("Fitting the cells"))) return;
+  LatticeFitOptions options;
+  if (const auto known = inspection()) options.shift.crowding.trustSides = !known->placement.ignoredSides;
+  searching_.restart(tr("Fitting the cells"), [this, open = built_, options](const Job::Context& context) {
+    context.progress()({0, 0, trLater("placing the cells")});
+    const LayoutSpec& laid = open->project.layout();
+    const LatticeFit fit = fitLattice(laid, options, probeFor(*open->rays), context.stop());
+    if (context.stop().stop_requested()) return;
+    context.post([this, open, fit, from = buildLayout(laid), to = buildLayout(fit.spec)] {
+      if (!from || !to || fit.spec == open->project.layout())
+        return messages_.add(MessageLevel::info,
+                             tr("The cells fit the floor already; smaller ones may fit it better"));
+      offerLayout(*open, fit.spec, tr("Fit the cells to the floor"),
+                  trf("{} cameras instead of {}; {:.1f} % of the floor lies in cells", to->cameras.size(),
+                      from->cameras.size(), 100 * fit.served));
+    });
+  });
 }
 
 void Session::fitCells() {

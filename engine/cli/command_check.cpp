@@ -24,6 +24,7 @@ Json toJson(const PlacementFinding& finding, const Layout& layout) {
   else
     json["cameras"] = finding.cameras;
   if (finding.push) json["push"] = pointJson(*finding.push);
+  if (finding.suffices) json["suffices"] = true;
   return json;
 }
 
@@ -36,6 +37,7 @@ std::string textOf(const PlacementFinding& finding, const Layout& layout) {
   if (finding.push)
     text += fmt::format("; {:.2f} m towards {:.0f} degrees clears it", glm::length(*finding.push),
                         degrees(wrapAngle(std::atan2(finding.push->y, finding.push->x))));
+  if (finding.suffices) text += "; it shows what its cells need all the same";
   return text + "\n";
 }
 
@@ -56,7 +58,9 @@ Status suggestOrigin(const OpenProject& open, const PlacementReport& now, const 
                      TaskRunner& runner, const Common& common, Report& report) {
   const SurfaceProbe probe = probeFor(*open.rays);
   ShiftOptions options;
-  options.crowding = {rules.cameraRoom, !now.ignoredSides};
+  options.crowding.cameraRoom = rules.cameraRoom;
+  options.crowding.floorTolerance = rules.floorTolerance;
+  options.crowding.trustSides = !now.ignoredSides;
   const LatticeShift shift = findFreestOrigin(open.layout->spec, options, probe, common.stop);
   if (shift.origin == open.layout->spec.latticeOrigin) return {};
   LayoutSpec spec = open.layout->spec;

@@ -5,8 +5,10 @@
 
 #include "engine/cli/commands.h"
 #include "engine/cli/region_report.h"
+#include "engine/inspect/lattice_fit.h"
 #include "engine/inspect/placement_checks.h"
 #include "engine/picture/layout_picture.h"
+#include "engine/pipeline/scene_probe.h"
 #include "engine/pipeline/scene_storeys.h"
 
 namespace acentric::cli {
@@ -111,7 +113,7 @@ Report describeLayout(const OpenProject& open) {
 }
 
 Result<Project> editProject(const OpenProject& open, const LayoutOptions& options,
-                            std::vector<std::string>& notes) {
+                            std::vector<std::string>& notes, const std::stop_token& stop) {
   Project project = open.project;
   auto edited = applyEdits(project.layout(), options.edits);
   if (!edited) return tl::unexpected(edited.error());
@@ -127,6 +129,12 @@ Result<Project> editProject(const OpenProject& open, const LayoutOptions& option
     if (!outline) return tl::unexpected(outline.error());
     project.layout().outline = std::move(*outline);
   }
+  if (options.fit) {
+    const LatticeFit fit = fitLattice(project.layout(), {}, probeFor(*open.rays), stop);
+    notes.push_back(fmt::format("fitted: {:.1f} % of the floor lies in cells, {} cells are left out",
+                                100 * fit.served, fit.spec.removed.size()));
+    project.layout() = fit.spec;
+  }
   return project;
 }
 
@@ -136,7 +144,7 @@ Result<Report> runLayout(const LayoutOptions& options, const Common& common) {
   auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   std::vector<std::string> notes;
-  const auto project = editProject(*open, options, notes);
+  const auto project = editProject(*open, options, notes, common.stop);
   if (!project) return tl::unexpected(project.error());
   const bool changed = *project != open->project;
   if (changed) {

@@ -185,6 +185,8 @@ Result<Report> runNew(const NewOptions& options, const Common& common) {
         "cameras\n",
         storey.project.current().name, spec.outline.area(), spec.floorHeight, nameOf(spec.configuration),
         cellsText(*storey.layout), storey.layout->regions.size(), storey.layout->cameras.size());
+    if (const std::size_t bare = spec.removed.size(); bare > 0 && storey.project.current().walkable.empty())
+      report.text += fmt::format("  left out: {} cell{} with hardly any floor\n", bare, bare == 1 ? "" : "s");
     const std::string leftOut = leftOutText(storey.project.current(), options, limitedBy);
     if (!leftOut.empty()) {
       json.back()["leftOut"] = leftOut;

@@ -61,6 +61,7 @@ struct LayoutOptions {
   std::filesystem::path project, output;
   LayoutEdits edits;
   std::string outline;  ///< empty = as it is, "auto", or parseOutline text
+  bool fit = false;     ///< the lattice to the floor, after all else
   bool apply = false;
 };
 Result<Report> runLayout(const LayoutOptions& options, const Common& common);

@@ -157,6 +157,8 @@ void addLayout(CLI::App& app, Chosen& chosen) {
   c->add_option("--cell", o.edits.cellSize, "Edge length of the polygons in metres")
       ->check(CLI::Range(kLeastCellSize, kLargestCellSize));
   c->add_option("--origin", o.edits.origin, "Where the lattice begins: x,y in metres");
+  c->add_flag("--fit", o.fit,
+              "Move and turn the lattice and leave out cells with hardly any floor, as a new project does");
   c->add_option("--rotate", o.edits.rotationDegrees, "How far the lattice is turned, degrees");
   c->add_option("--eye-height", o.edits.eyeHeight, "Metres above the floor");
   c->add_option("--near-band", o.edits.nearBand, "Metres around a region that are drawn as polygons");

@@ -58,7 +58,7 @@ double worthOf(const WalkPlane& plane, const Standing& standing) {
   return worth;
 }
 
-struct Candidate {
+struct FloorCandidate {
   FloorChoice choice;
   double worth = 0;
   bool onHull = false;  ///< see liesOnHull
@@ -77,8 +77,8 @@ bool liesOnHull(const WalkPlane& plane, const Standing& standing, const FloorLev
   return double(hidden) > kHiddenFloor * double(plane.spots.size());
 }
 
-Result<Candidate> candidateOn(const Bounds& bounds, const ProbeGrid& grid, const WalkableOptions& options,
-                              const SurfaceProbe& probe) {
+Result<FloorCandidate> candidateOn(const Bounds& bounds, const ProbeGrid& grid,
+                                   const WalkableOptions& options, const SurfaceProbe& probe) {
   FloorLevels levels = findFloorLevels(bounds, grid, options.headRoom(), probe);
   std::optional<double> height = options.floorHeight;
   const bool given = !std::isnan(options.floorHeight);
@@ -106,7 +106,7 @@ Result<Candidate> candidateOn(const Bounds& bounds, const ProbeGrid& grid, const
   const bool onHull = !given && liesOnHull(*best, standing, levels);
   best->height = *height;
   FloorChoice choice{{*height, best->outline, options.ignoreSides}, std::move(*best), std::move(standing)};
-  return Candidate{std::move(choice), worth, onHull};
+  return FloorCandidate{std::move(choice), worth, onHull};
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ Result<Candidate> candidateOn(const Bounds& bounds, const ProbeGrid& grid, const
 Result<FloorChoice> chooseFloor(const Bounds& bounds, const ProbeGrid& grid, const WalkableOptions& options,
                                 const SurfaceProbe& probe) {
   auto candidate = candidateOn(bounds, grid, options, probe);
-  const auto chosen = [](Result<Candidate>& found) -> Result<FloorChoice> {
+  const auto chosen = [](Result<FloorCandidate>& found) -> Result<FloorChoice> {
     if (!found) return tl::unexpected(found.error());
     return std::move(found->choice);
   };

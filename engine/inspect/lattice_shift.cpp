@@ -12,7 +12,8 @@ namespace {
 constexpr int kSides = 12;
 constexpr double kInside = 0.8;  // share of the sides that show backs
 
-double lackOf(const glm::dvec3& centre, const CrowdingRules& rules, const SurfaceProbe& probe) {
+double lackOf(const glm::dvec3& centre, double eyeHeight, const CrowdingRules& rules,
+              const SurfaceProbe& probe) {
   double nearest = rules.cameraRoom;
   int backs = 0;
   for (int k = 0; k < kSides; ++k) {
@@ -23,6 +24,7 @@ double lackOf(const glm::dvec3& centre, const CrowdingRules& rules, const Surfac
     backs += hit.showsBack(direction) ? 1 : 0;
   }
   if (rules.trustSides && backs >= kInside * kSides) return 2;
+  if (!(probe(centre, {0, 0, -1}).distance <= eyeHeight + rules.floorTolerance)) return 2;
   return 1 - nearest / rules.cameraRoom;
 }
 
@@ -31,7 +33,8 @@ double lackOf(const glm::dvec3& centre, const CrowdingRules& rules, const Surfac
 double crowding(const Layout& layout, const CrowdingRules& rules, const SurfaceProbe& probe) {
   double sum = 0;
   for (const CameraCentre& centre : centresOf(layout))
-    sum += double(centre.cameras.size()) * lackOf({centre.position, layout.eyeZ()}, rules, probe);
+    sum += double(centre.cameras.size()) *
+           lackOf({centre.position, layout.eyeZ()}, layout.spec.eyeHeight, rules, probe);
   return sum;
 }
 

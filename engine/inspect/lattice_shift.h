@@ -10,12 +10,13 @@
 namespace acentric {
 
 struct CrowdingRules {
-  double cameraRoom = 0.4;  ///< metres
-  bool trustSides = true;   ///< a camera around which all shows its back is inside a solid
+  double cameraRoom = 0.4;       ///< metres
+  double floorTolerance = 0.25;  ///< metres that the floor may lie below the walk plane
+  bool trustSides = true;        ///< a camera around which all shows its back is inside a solid
 };
 
 /// How badly the cameras of a layout stand: each lacks a share of its room, in [0, 1], or counts 2 inside a
-/// solid. Looks level at eye height.
+/// solid and off the floor. Looks level at eye height, and down.
 double crowding(const Layout& layout, const CrowdingRules& rules, const SurfaceProbe& probe);
 
 struct ShiftOptions {

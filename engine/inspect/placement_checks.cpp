@@ -7,8 +7,10 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numeric>
 
+#include "engine/inspect/camera_sight.h"
 #include "engine/inspect/standing.h"
 
 namespace acentric {
@@ -18,8 +20,9 @@ constexpr double kTouching = 0.25;       // share of cameraRoom below which a ca
 constexpr double kPushStep = 0.05;       // metres
 constexpr double kPushAccuracy = 0.005;  // metres
 constexpr int kPushSides = 24;
-constexpr int kPlacesAcross = 8;   // of a region, where standing room is looked for
-constexpr double kNeighbours = 3;  // cells: how far centres look for others of the same space
+constexpr int kPlacesAcross = 8;            // of a region, where standing room is looked for
+constexpr std::size_t kPlacesSeenFrom = 5;  // of a region's standing room, spread over it
+constexpr double kNeighbours = 3;           // cells: how far centres look for others of the same space
 constexpr double kHeadAboveEye = 0.15;
 constexpr double kSeemInside = 0.8;  // share of the centres from which sides are not trusted
 
@@ -80,33 +83,47 @@ class Checker {
 
   std::optional<PlacementFinding> checkRegion(int index) const {
     const Region& region = layout_.regions[std::size_t(index)];
-    glm::dvec2 low = region.polygon.corners.front(), high = low;
-    for (const glm::dvec2& corner : region.polygon.corners)
-      low = glm::min(low, corner), high = glm::max(high, corner);
-    const glm::dvec2 middle = region.polygon.centroid();
-    int looked = 1;
-    if (canStandAt(middle, region)) return std::nullopt;
-    for (int i = 0; i < kPlacesAcross; ++i)
-      for (int j = 0; j < kPlacesAcross; ++j) {
-        const glm::dvec2 place = low + (high - low) * glm::dvec2(i + 0.5, j + 0.5) / double(kPlacesAcross);
-        if (!region.polygon.containsClosed(place)) continue;
-        ++looked;
-        if (canStandAt(place, region)) return std::nullopt;
-      }
+    const std::vector<glm::dvec2> places = placesIn(region);
+    if (std::ranges::any_of(places, [&](const auto& place) { return canStandAt(place, region); }))
+      return std::nullopt;
     return PlacementFinding{
         PlacementFlaw::noStandingRoom,
         Severity::warning,
         {},
         index,
-        middle,
+        places.front(),
         fmt::format("none of {} places in it has a floor within {:.2f} m of the walk plane, {:.2f} m of head "
                     "room and {:.2f} m to the sides",
-                    looked, rules_.floorTolerance, layout_.spec.eyeHeight + kHeadAboveEye,
+                    places.size(), rules_.floorTolerance, layout_.spec.eyeHeight + kHeadAboveEye,
                     rules_.wallClearance),
         {}};
   }
 
+  /// What the region's cameras show of what is seen where one can stand in it.
+  void lookFrom(const Region& region, std::vector<CameraSight>& sights) const {
+    std::vector<glm::dvec2> standing = placesIn(region);
+    std::erase_if(standing, [&](const auto& place) { return !canStandAt(place, region); });
+    std::vector<glm::dvec2> some;
+    const std::size_t step = standing.size() / kPlacesSeenFrom + 1;
+    for (std::size_t k = 0; k < standing.size(); k += step) some.push_back(standing[k]);
+    acentric::lookFrom(some, layout_, region, bounds_, probe_, sights);
+  }
+
  private:
+  /// Places spread over a region, its middle first.
+  static std::vector<glm::dvec2> placesIn(const Region& region) {
+    glm::dvec2 low = region.polygon.corners.front(), high = low;
+    for (const glm::dvec2& corner : region.polygon.corners)
+      low = glm::min(low, corner), high = glm::max(high, corner);
+    std::vector<glm::dvec2> places{region.polygon.centroid()};
+    for (int i = 0; i < kPlacesAcross; ++i)
+      for (int j = 0; j < kPlacesAcross; ++j) {
+        const glm::dvec2 place = low + (high - low) * glm::dvec2(i + 0.5, j + 0.5) / double(kPlacesAcross);
+        if (region.polygon.containsClosed(place)) places.push_back(place);
+      }
+    return places;
+  }
+
   bool canStandAt(const glm::dvec2& place, const Region& region) const {
     const double headRoom = layout_.spec.eyeHeight + kHeadAboveEye;
     StandingRules standing;
@@ -199,6 +216,39 @@ std::vector<bool> findInside(const std::vector<CameraCentre>& centres,
   return inside;
 }
 
+/// A camera from which nothing is hidden that it is to show is none to mend, wherever it stands.
+void excuseWhatSuffices(PlacementReport& report, const Layout& layout, const Checker& checker,
+                        TaskRunner& runner, const std::stop_token& stop) {
+  std::vector<bool> asked(layout.cameras.size(), false);
+  for (const PlacementFinding& finding : report.findings)
+    for (const int camera : finding.cameras)
+      if (finding.severity != Severity::note) asked[std::size_t(camera)] = true;
+  std::vector<std::size_t> regions;
+  for (std::size_t r = 0; r < layout.regions.size(); ++r)
+    if (std::ranges::any_of(layout.regions[r].covers, [&](const Cover& cover) {
+          return std::ranges::any_of(cover.pieces,
+                                     [&](const Piece& p) { return asked[std::size_t(p.camera)]; });
+        }))
+      regions.push_back(r);
+  std::vector<CameraSight> sights(layout.cameras.size());
+  std::mutex adding;
+  runner.parallelFor(regions.size(), [&](std::size_t k) {
+    if (stop.stop_requested()) return;
+    std::vector<CameraSight> here(layout.cameras.size());
+    checker.lookFrom(layout.regions[regions[k]], here);
+    const std::scoped_lock lock(adding);
+    for (std::size_t c = 0; c < here.size(); ++c) sights[c].add(here[c]);
+  });
+  for (PlacementFinding& finding : report.findings) {
+    CameraSight sight;
+    for (const int camera : finding.cameras) sight.add(sights[std::size_t(camera)]);
+    if (finding.severity == Severity::note || !sight.suffices()) continue;
+    finding.severity = Severity::note;
+    finding.suffices = true;
+    finding.push.reset();
+  }
+}
+
 }  // namespace
 
 const char* nameOf(PlacementFlaw flaw) {
@@ -288,6 +338,7 @@ Result<PlacementReport> checkPlacement(const Layout& layout, const Bounds& bound
   if (stop.stop_requested())
     return fail(ErrorKind::cancelled, "the placement check was stopped", "placement");
   for (auto& some : found) std::ranges::move(some, std::back_inserter(report.findings));
+  excuseWhatSuffices(report, layout, checker, runner, stop);
   std::ranges::stable_sort(report.findings, [](const PlacementFinding& a, const PlacementFinding& b) {
     return a.severity != b.severity ? a.severity > b.severity : a.flaw < b.flaw;
   });

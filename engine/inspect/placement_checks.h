@@ -46,6 +46,9 @@ struct PlacementFinding {
   /// Where the centre would stand free, by the smallest move found; nothing if none within mostPush, or none
   /// is needed (notes).
   std::optional<glm::dvec2> push;  ///< metres to move by in plan
+  /// A note for this alone: hardly anything of what is seen from the regions is hidden from the cameras that
+  /// are to show it (camera_sight.h).
+  bool suffices = false;
 };
 
 struct PlacementReport {

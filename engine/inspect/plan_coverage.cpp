@@ -12,7 +12,7 @@
 namespace acentric {
 namespace {
 
-constexpr double kMostCells = 1 << 26;
+constexpr double kMostPoints = 1 << 26;
 
 /// Cells [first, last) of a row.
 struct Span {
@@ -115,9 +115,9 @@ Status PlanGrid::check() const {
   };
   if (!(std::isfinite(corner.x + corner.y) && std::isfinite(step) && step > 0 && columns > 0 && rows > 0))
     return refuse("the box is empty or not finite");
-  if (double(columns) * rows > kMostCells)
+  if (double(columns) * rows > kMostPoints)
     return refuse(
-        fmt::format("{} x {} points are more than {:.0f}; choose fewer", columns, rows, kMostCells));
+        fmt::format("{} x {} points are more than {:.0f}; choose fewer", columns, rows, kMostPoints));
   return {};
 }
 

@@ -8,8 +8,8 @@
 namespace acentric {
 namespace {
 
-constexpr int kMostCells = 512;       ///< along the longer side
-constexpr double kFinestCell = 0.05;  ///< metres
+constexpr int kMostCellsAcross = 512;  ///< along the longer side
+constexpr double kFinestCell = 0.05;   ///< metres
 
 /// The area in square cells, with a border of cells outside it.
 struct Cells {
@@ -19,7 +19,7 @@ struct Cells {
 
   explicit Cells(const StandingArea& area) {
     const glm::dvec2 extent = area.high - area.low;
-    size = std::max(kFinestCell, std::max(extent.x, extent.y) / kMostCells);
+    size = std::max(kFinestCell, std::max(extent.x, extent.y) / kMostCellsAcross);
     mask = CellMask(int(std::ceil(extent.x / size)) + 2, int(std::ceil(extent.y / size)) + 2);
     origin = area.low - size;
     for (int y = 0; y < mask.rows; ++y)

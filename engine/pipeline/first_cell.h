@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <utility>
 
+#include "engine/inspect/lattice_fit.h"
 #include "engine/inspect/near_ground.h"
 #include "engine/layout/layout.h"
 
@@ -27,8 +28,6 @@ inline constexpr double kGroundToMeasure = 10'000;  ///< square metres
 /// Split where the mean distance to what stands about is less than so many times a region's room. In a street
 /// three times as wide as the region it would be as much.
 inline constexpr double kRoomToSplit = 1.5;
-/// Regions with less floor than this share of their area are left out: hardly anyone can stand there.
-inline constexpr double kLeastFloor = 0.2;
 /// That a camera needs about it, metres: a nearer surface hides all else.
 inline constexpr double kCameraRoom = 0.1;
 
@@ -38,6 +37,9 @@ struct FirstLayoutLimit {
       around;                       ///< plan: where the part begins that is laid out; none: see near_ground.h
   bool chooseCell = true;           ///< else the spec's own size is kept
   bool chooseConfiguration = true;  ///< likewise; with chooseCell alone
+  /// Where all is laid out, the lattice may be turned and cells with hardly any floor left out
+  /// (lattice_fit.h).
+  bool fit = true;
 };
 
 /// Lowest and highest corner of the box around an outline.

@@ -12,7 +12,7 @@
 
 #include "engine/base/stopwatch.h"
 #include "engine/geometry/round_to.h"
-#include "engine/inspect/lattice_shift.h"
+#include "engine/inspect/lattice_fit.h"
 #include "engine/inspect/walkable_outline.h"
 #include "engine/pipeline/camera_path.h"
 #include "engine/pipeline/collect_model.h"
@@ -108,16 +108,23 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
   spec.floorHeight = roundTo(plane.height, 1e-4) + 0.0;  // never -0
   const glm::dvec2 middle = middleOf(spec.outline);
   spec.latticeOrigin = {roundTo(middle.x, 0.01), roundTo(middle.y, 0.01)};
+  const SurfaceProbe probe = probeFor(rays);
+  bool fitted = false;
   if (exceeds(spec, limit)) {
-    auto kept = keepWithin(spec, limit, rays.scene().bounds, ignoredSides, probeFor(rays), stop);
+    auto kept = keepWithin(spec, limit, rays.scene().bounds, ignoredSides, probe, stop);
     if (!kept) return tl::unexpected(kept.error());
-    if (kept->outline != spec.outline) storey.walkable = std::move(spec.outline);
+    fitted = kept->outline != spec.outline;
+    if (fitted) storey.walkable = std::move(spec.outline);
     spec = std::move(*kept);
-  } else {
+  }
+  if (!fitted) {
     if (Status sound = spec.check(); !sound) return tl::unexpected(sound.error());
-    ShiftOptions shift;
-    shift.crowding.trustSides = !ignoredSides;
-    spec.latticeOrigin = findFreestOrigin(spec, shift, probeFor(rays), stop).origin;
+    LatticeFitOptions fit;
+    fit.shift.crowding.trustSides = !ignoredSides;
+    if (limit.fit)
+      spec = fitLattice(spec, fit, probe, stop).spec;
+    else
+      spec.latticeOrigin = findFreestOrigin(spec, fit.shift, probe, stop).origin;
   }
   const auto layout = buildLayout(spec);
   if (!layout) return tl::unexpected(layout.error());
@@ -134,7 +141,8 @@ FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const N
   double all = 0;
   for (const WalkPlane& each : planes.planes) all += each.outline.area();
   FirstLayoutLimit limit;
-  if (options.outline != "auto") return limit;
+  limit.fit = options.outline == "auto";  // what was drawn is laid out as drawn
+  if (!limit.fit) return limit;
   limit.cameras = std::size_t(std::ceil(double(mostCameras) * plane.outline.area() / all));
   limit.around = options.around;
   // Cells that are small since there is little ground suit it.

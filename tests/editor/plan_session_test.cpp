@@ -49,6 +49,24 @@ TEST_F(PlanSessionTest, TheOutlineFromTheSceneIsWhatANewProjectHas) {
   EXPECT_NEAR(session_->project().layout().outline.area(), 4, 1e-9);
 }
 
+TEST_F(PlanSessionTest, FittingToTheFloorLaysCellsAsANewProjectDoes) {
+  const LayoutSpec fresh = session_->project().layout();
+  run("layout.fit");
+  waitFor([&] { return !session_->searching().running(); });
+  EXPECT_EQ(session_->project().layout(), fresh);
+  EXPECT_EQ(session_->messages().all().back().text,
+            "The cells fit the floor already; smaller ones may fit it better");
+  session_->apply(setLattice(session_->project(), {{0.7, 0.3}, radians(17.0), fresh.cellSize}, "turn"));
+  settle();
+  const std::size_t cameras = session_->built()->layout->cameras.size();
+  run("layout.fit");
+  waitFor([&] { return !session_->searching().running(); });
+  EXPECT_EQ(session_->history().cursor(), 2U);
+  EXPECT_LT(buildLayout(session_->project().layout())->cameras.size(), cameras);
+  session_->undo();
+  EXPECT_NEAR(degrees(session_->project().layout().rotationRadians), 17, 1e-9);
+}
+
 TEST_F(PlanSessionTest, SelectingCopyingAndNudgingAreOneStepEach) {
   EXPECT_FALSE(enabled("edit.duplicate")) << "nothing is selected";
   run("edit.selectRings");

@@ -99,6 +99,13 @@ TEST(Problems, AScaleInDoubtIsAskedAboutOnceAndChangedWithTheLayout) {
   EXPECT_EQ(problem.place.section, "Scene");
   ASSERT_TRUE(problem.fix.has_value());
   EXPECT_EQ(problem.fix->label, "Scale to 0.15");
+  ProblemFacts more = facts;
+  change(more.inspection, [](Inspection& inspection) {
+    inspection.placement.findings = {
+        {PlacementFlaw::insideSolid, Severity::error, {0}, -1, {1, 1}, "inside", {}}};
+  });
+  ASSERT_EQ(findProblems(more).size(), 2U);
+  EXPECT_EQ(findProblems(more).front().fix, problem.fix) << "before what may come of it";
   const Project& project = facts.built->project;
   const Edit edit = changeScale(project, *facts.built->scene, *problem.fix);
   EXPECT_EQ(edit.project.import.metresPerUnit, 0.15);
@@ -161,6 +168,26 @@ TEST(Problems, APlacementWarningIsPushedOut) {
   const Edit moved = pushOut(facts.built->project, *problem.fix);
   EXPECT_EQ(moved.project.layout().freeApvs.at(3).centre, glm::dvec2(0.6, 0.2));
   EXPECT_EQ(moved.project.layout().latticeOrigin, facts.built->project.layout().latticeOrigin);
+}
+
+TEST(Problems, OfOneCameraOnlyTheWorstIsTold) {
+  ProblemFacts facts = sound();
+  const PlacementFinding inside{PlacementFlaw::insideSolid, Severity::error, {0}, -1, {1, 1}, "inside", {}};
+  const PlacementFinding low{PlacementFlaw::floorTooLow, Severity::warning, {0}, -1, {1, 1}, "too low", {}};
+  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {inside, low}; });
+  const Problem problem = only(facts);
+  EXPECT_TRUE(says(problem, "a camera: inside")) << problem.text;
+  ASSERT_TRUE(problem.fix.has_value()) << "no push clears it, another lattice may";
+  EXPECT_EQ(problem.fix->action, "layout.fit");
+}
+
+TEST(Problems, CamerasThatShowWhatTheirCellsNeedAreNone) {
+  ProblemFacts facts = sound();
+  PlacementFinding finding{
+      PlacementFlaw::noFloor, Severity::note, {0}, -1, {1, 1}, "nothing is below it", {}};
+  finding.suffices = true;
+  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {finding}; });
+  EXPECT_TRUE(findProblems(facts).empty());
 }
 
 TEST(Problems, NotesOfPlacementAreOneLine) {

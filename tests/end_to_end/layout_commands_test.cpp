@@ -56,6 +56,15 @@ TEST_F(LayoutCommandsTest, ANewProjectIsLaidOnTheStoreyChosen) {
   EXPECT_NEAR(byHeight["storeys"][0]["floorHeight"].get<double>(), height, 1e-3);
 }
 
+TEST_F(LayoutCommandsTest, ALayoutIsFittedToTheFloor) {
+  const Json loose = report({"layout", made->file(), "--config", "b", "--cell", "2", "--rotate", "11"});
+  const Json fitted =
+      report({"layout", made->file(), "--config", "b", "--cell", "2", "--rotate", "11", "--fit"});
+  EXPECT_LT(fitted["cameras"].get<int>(), loose["cameras"].get<int>());
+  EXPECT_GT(fitted["removed"].get<int>(), 0);
+  EXPECT_THAT(fitted["notes"][0].get<std::string>(), testing::HasSubstr("% of the floor lies in cells"));
+}
+
 TEST_F(LayoutCommandsTest, ALayoutIsTriedAndThenApplied) {
   const Json now = report({"layout", made->file()});
   EXPECT_FALSE(now["changed"].get<bool>());

@@ -33,7 +33,7 @@ wait_for '^rect problem\.0\.fix' 60
 import -window root "$WORK/before.png"
 click problem.0.fix
 wait_state 'working 0 dirty 1 undo 1' 60
-wait_for '^gone problem\.0\.fix|^event state .*problems 0' 30
+wait_state 'working 0 dirty 1 undo 1 problems [0-2] ' 60  # that nothing is baked yet, and notes
 import -window root "$WORK/after.png"
 press_with ctrl s
 wait_state 'working 0 dirty 0 undo 1' 30

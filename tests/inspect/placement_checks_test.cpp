@@ -157,6 +157,42 @@ TEST(PlacementChecks, FindARegionWithoutStandingRoom) {
   EXPECT_EQ(none[0], *layout.regionAt({3, 3}));
 }
 
+/// The findings of centres at a place.
+std::vector<PlacementFinding> at(const PlacementReport& report, const glm::dvec2& place) {
+  std::vector<PlacementFinding> found;
+  for (const PlacementFinding& finding : report.findings)
+    if (finding.region < 0 && glm::distance(finding.place, place) < 1e-6) found.push_back(finding);
+  return found;
+}
+
+TEST(PlacementChecks, NoteACameraBeyondAWallThatNobodySeesPast) {
+  const BoxWorld room = BoxWorld::room(8, 6, 3);
+  LayoutSpec beyond = squares({1.5, 1});  // corners at x = 0.5 ... 8.5
+  beyond.outline.loops = {{{0.6, 0.5}, {7.9, 0.5}, {7.9, 5.5}, {0.6, 5.5}}};
+  const PlacementReport report = check(room, buildLayout(beyond).value());
+  const auto outside = at(report, {8.5, 2});
+  ASSERT_FALSE(outside.empty());
+  for (const PlacementFinding& finding : outside) {
+    EXPECT_EQ(finding.severity, Severity::note) << finding.reason;
+    EXPECT_TRUE(finding.suffices);
+    EXPECT_FALSE(finding.push) << "none is needed";
+  }
+}
+
+TEST(PlacementChecks, WarnOfACameraFromWhichAWallHidesWhatIsSeenThroughADoor) {
+  BoxWorld rooms = BoxWorld::room(16, 6, 3);
+  // A block 3 m thick parts the rooms, with a door 1.4 m wide along y = 3 through it.
+  rooms.boxes.push_back({{6, 0, 0}, {9, 2.3, 3}});
+  rooms.boxes.push_back({{6, 3.7, 0}, {9, 6, 3}});
+  LayoutSpec spec = squares({4.8, 3}, 4);  // corners at (6.8, 1) and (6.8, 5), within the block
+  spec.nearBand = 0.25;
+  const PlacementReport report = check(rooms, buildLayout(spec).value());
+  const auto inBlock = at(report, {6.8, 1});
+  ASSERT_FALSE(inBlock.empty());
+  EXPECT_EQ(inBlock[0].severity, Severity::error) << inBlock[0].reason;
+  EXPECT_FALSE(inBlock[0].suffices);
+}
+
 TEST(PlacementChecks, DoNotDependOnTheNumberOfThreads) {
   BoxWorld room = roomWithColumn();
   const Layout layout = buildLayout(squares({1.3, 0.7}, 1)).value();
@@ -174,7 +210,9 @@ TEST(PlacementChecks, DoNotDependOnTheNumberOfThreads) {
 
 TEST(PlacementChecks, ClearEachCameraThatTheyPush) {
   const BoxWorld room = roomWithColumn();
-  const PlacementReport report = check(room, buildLayout(squares({1.3, 0.7}, 1)).value());
+  Layout layout = buildLayout(squares({1.3, 0.7}, 1)).value();
+  layout.regions.clear();  // nothing says that what they see suffices
+  const PlacementReport report = check(room, layout);
   int pushed = 0;
   for (const PlacementFinding& finding : report.findings) {
     if (!finding.push) continue;
@@ -201,7 +239,8 @@ TEST(PlacementChecks, RefuseBadRulesAndStopWhenAsked) {
 
 TEST(LatticeShift, MovesTheCamerasOffTheWalls) {
   const BoxWorld room = BoxWorld::room(8, 6, 3);
-  const LayoutSpec spec = squares({1.1, 1.1});  // corners at 0.1, 2.1 ... : at two walls
+  LayoutSpec spec = squares({1.1, 1.1});  // corners at 0.1, 2.1 ... : at two walls
+  spec.outline.loops = {{{1.1, 1.1}, {6.7, 1.1}, {6.7, 4.7}, {1.1, 4.7}}};
   const LatticeShift shift = findFreestOrigin(spec, {}, room.probe());
   EXPECT_GT(shift.before, 3);
   EXPECT_EQ(shift.after, 0);
@@ -219,6 +258,16 @@ TEST(LatticeShift, CountsTheInsideOfALargeSolidAgainstAnOrigin) {
   CrowdingRules blind;
   blind.trustSides = false;
   EXPECT_EQ(crowding(deep, blind, room.probe()), 0) << "the naive measure sees 1 m of free way";
+}
+
+TEST(LatticeShift, CountsCamerasOffTheFloorAgainstAnOrigin) {
+  const BoxWorld room = BoxWorld::room(8, 6, 3);
+  EXPECT_EQ(crowding(camerasAt({{12, 3}}), {}, room.probe()), 2) << "nothing is below";
+  Layout high = camerasAt({{4, 3}});
+  high.spec.floorHeight = 0.2, high.spec.eyeHeight = 1.4;
+  EXPECT_EQ(crowding(high, {}, room.probe()), 0);
+  high.spec.floorHeight = 0.3, high.spec.eyeHeight = 1.3;
+  EXPECT_EQ(crowding(high, {}, room.probe()), 2) << "more than the tolerance above the floor";
 }
 
 TEST(LatticeShift, StaysWhereItIsInTheOpen) {
