@@ -66,8 +66,7 @@ inline constexpr std::array kWalkErrors = {
     // What is baked: engine/store, engine/pipeline/check_store
     trLater("is no packed file of this program, or its beginning is damaged"),
     trLater("has {} bytes instead of {}: it was cut or appended to"),
-    trLater("is damaged: its checksum differs"), trLater("is damaged or was edited: its checksum differs"),
-    trLater("holds another kind of data than its name says"),
+    trLater("is damaged: its checksum differs"), trLater("holds another kind of data than its name says"),
     trLater("has format version {}, this program reads {}; bake it anew"),
     trLater("its description makes no sense"), trLater("its number of samples contradicts its size"),
     trLater("its number of triangles contradicts its size"),
@@ -76,8 +75,8 @@ inline constexpr std::array kWalkErrors = {
     trLater("was damaged and is set aside"), trLater("cannot be used as the folder of captures: {}"),
     trLater("reading was stopped"), trLater("is damaged, or no record of a capture"),
     trLater("is damaged: it has another size than when it was written"),
-    trLater("is damaged: its content is not what was written"), trLater("cannot be read as OpenEXR: {}"),
-    trLater("OpenEXR refused to write: {}"), trLater("checking was cancelled"),
+    trLater("is damaged: its content is not what was written"), trLater("OpenEXR refused to write: {}"),
+    trLater("checking was cancelled"),
     // Walks: engine/pipeline/load_walk, walk_*, engine/view
     trLater("not enough memory for a capture: give the walk a lower limit of memory"),
     trLater("loading was cancelled"), trLater("a region above the budget was not simplified: {}"),

@@ -136,12 +136,14 @@ std::vector<double> turnsFor(const LayoutSpec& spec) {
   const bool ofSix = cellPolygon(spec, {0, 0, 0}).size() % 3 == 0;
   const double period = kTwoPi / (ofSix ? 6 : 4);
   const auto add = [&](double turn) {
+    // Of whole halves of degrees, which project files hold exactly; along the walls or across them for
+    // lattices of all kinds.
     const double tidy = radians(std::round(degrees(turn) / kTurnAccuracy) * kTurnAccuracy);
     const auto alike = [&](double other) {
       const double apart = std::abs(std::remainder(tidy - other, period));
       return apart < radians(2 * kTurnAccuracy);
     };
-    if (std::ranges::none_of(turns, alike)) turns.push_back(std::remainder(tidy, period));
+    if (std::ranges::none_of(turns, alike)) turns.push_back(tidy);
   };
   if (const auto way = wayOfWalls(spec.outline)) {
     add(*way);

@@ -60,6 +60,8 @@ TEST(LatticeFit, StaysWhereItWasFitted) {
         cellsOver({{{0.2, 0.2}, {19.8, 0.2}, {19.8, 11.8}, {0.2, 11.8}}}, 2.5, configuration);
     const LayoutSpec once = fitLattice(spec, {}, room.probe()).spec;
     EXPECT_EQ(fitLattice(once, {}, room.probe()).spec, once) << nameOf(configuration);
+    const double turn = once.rotationRadians;
+    EXPECT_EQ(turn, radians(std::round(2 * degrees(turn)) / 2)) << "as a project file gives it back";
   }
 }
 

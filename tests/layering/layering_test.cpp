@@ -58,8 +58,7 @@ std::string jsonCallsBesideTheHelper(const fs::path& root) {
   for (const char* top : {"engine", "ui", "editor"})
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       const fs::path& file = entry.path();
-      if ((file.extension() != ".cpp" && file.extension() != ".h") || file.filename() == "json_text.h")
-        continue;
+      if ((file.extension() != ".cpp" && file.extension() != ".h") || file.stem() == "json_text") continue;
       std::istringstream lines(readText(file).value_or(""));
       int number = 0;
       for (std::string line; std::getline(lines, line);)
