@@ -81,7 +81,7 @@ TEST(BakeForecastTold, ByBenchHolesWhoseCapturesStayInMemory) {
 }
 
 TEST(BakeForecastTold, ByBenchRepresentationsForWhatNoEarlierRunBaked) {
-  const SampleProject project("forecast-bench-representations", "-3,-3;3,-3;3,3;-3,3");
+  const SampleProject project("forecast-bench-representations", "-2,-2;2,-2;2,2;-2,2");
   ASSERT_EQ(project.made().exitCode, 0) << project.made().errors;
   const auto bench = [&](const std::string& only) {
     return acentric({"bench", "representations", project.file(), "-o", (project.folder() / "ways").string(),

@@ -14,7 +14,10 @@ namespace {
 
 class CoverageTest : public testing::Test {
  protected:
-  static void SetUpTestSuite() { project = new SampleProject("coverage"); }
+  static void SetUpTestSuite() {
+    // Enough holes to correlate.
+    project = new SampleProject("coverage", "-6.5,-4.5;6.5,-4.5;6.5,4.5;-6.5,4.5");
+  }
   static void TearDownTestSuite() { delete project; }
   void SetUp() override { ASSERT_EQ(project->made().exitCode, 0) << project->made().errors; }
   std::string path(const char* name) const { return (project->folder() / name).string(); }
