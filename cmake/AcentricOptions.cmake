@@ -55,10 +55,11 @@ function(acentric_join_sources target)
   endforeach()
 endfunction()
 
-# acentric_library(NAME PUBLIC dep... PRIVATE dep... RUNTIME source...): a static library from every .cpp of this folder.
-# RUNTIME is what the C library takes of it (no more, so that it needs few other libraries), if that is not all.
+# acentric_library(NAME PUBLIC dep... PRIVATE dep... RUNTIME source... SINGLE source...): a static library from every .cpp
+# of this folder. RUNTIME is what the C library takes of it (no more, so that it needs few other libraries), if that is
+# not all; SINGLE is what acentric-bench-gl takes besides, source by source.
 function(acentric_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;RUNTIME" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;RUNTIME;SINGLE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   if(NOT sources)
     add_library(${name} INTERFACE)
@@ -68,6 +69,7 @@ function(acentric_library name)
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PUBLIC acentric_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   target_precompile_headers(${name} REUSE_FROM acentric_precompiled_library)
+  set_source_files_properties(${ARG_SINGLE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   acentric_join_sources(${name} APART ${ARG_RUNTIME})
 endfunction()
 

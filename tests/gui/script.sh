@@ -11,9 +11,18 @@ mkdir -p "$WORK/config/acentric" "$WORK/cache" "$WORK/state"
 export XDG_CONFIG_HOME=$WORK/config XDG_CACHE_HOME=$WORK/cache XDG_STATE_HOME=$WORK/state
 trap stop_all EXIT
 
+# make_project MODEL ORIGIN [OPTIONS of `acentric new`]: of it, as $PROJECT, with the lattice at a place that scripts know.
+make_project() {
+  local model=$1 origin=$2
+  shift 2
+  { "$ACENTRIC" new "$model" -o "$PROJECT" "$@" && "$ACENTRIC" layout "$PROJECT" --origin "$origin" --apply; } \
+    >"$WORK/new.out" 2>&1 || { cat "$WORK/new.out"; exit 1; }
+}
+
 # make_room [OPTIONS of `acentric new`]: a small project of a closed room, 6 x 5 x 3 m, faces inwards, as $PROJECT.
 make_room() {
-  [ $# -gt 0 ] || set -- --cell 1.2 --outline "-1.8,-1.2;1.8,-1.2;1.8,1.2;-1.8,1.2"
+  local origin=0,0
+  [ $# -gt 0 ] || { origin=0.4,0; set -- --cell 1.2 --outline "-1.8,-1.2;1.8,-1.2;1.8,1.2;-1.8,1.2"; }
   cat >"$WORK/room.obj" <<'OBJ'
 v -3 0 -2.5
 v 3 0 -2.5
@@ -31,7 +40,7 @@ f 3 4 8 7
 f 4 1 5 8
 OBJ
   PROJECT=$WORK/room.acentric.json
-  "$ACENTRIC" new "$WORK/room.obj" -o "$PROJECT" --samples-per-degree 1 "$@" >"$WORK/new.out" 2>&1 || { cat "$WORK/new.out"; exit 1; }
+  make_project "$WORK/room.obj" "$origin" --samples-per-degree 1 "$@"
 }
 
 # open_project: the display, the editor with $PROJECT in it, at rest

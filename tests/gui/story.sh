@@ -31,8 +31,7 @@ wall((3, 0, -2.5), (0, 0, 5), (0, 3, 0), 3, 2)
 for corner in corners: print("v %g %g %g" % tuple(corner))
 for face in faces: print("f %d %d %d" % face)
 PY
-"$ACENTRIC" new "$WORK/hall.obj" -o "$PROJECT" --config b --cell 1.6 --samples-per-degree 5 \
-  --outline "-2,-1.4;2,-1.4;2,1.4;-2,1.4" >"$WORK/new.out" 2>&1 || { cat "$WORK/new.out"; exit 1; }
+make_project "$WORK/hall.obj" 0,0 --config b --cell 1.6 --samples-per-degree 5 --outline "-2,-1.4;2,-1.4;2,1.4;-2,1.4"
 
 # shown NAME SECONDS: the widget is shown and at rest
 shown() {
