@@ -71,7 +71,7 @@ xdotool mousedown 1; sleep 0.3
 for _ in 1 2 3 4 5 6; do xdotool mousemove_relative -- 20 0; sleep 0.1; done
 xdotool mouseup 1
 EYE_TURNED=$(settled eye)
-echo "$EYE_AFTER $EYE_TURNED" | awk '{ d = $6 - $12; if (d < 0) d += 6.2831853; exit !(d > 0.1 && d < 1.5) }' ||
+echo "$EYE_AFTER $EYE_TURNED" | awk '{ d = $6 - $13; if (d < 0) d += 6.2831853; exit !(d > 0.1 && d < 1.5) }' ||
   fail "dragging did not look to the right: from $EYE_AFTER to $EYE_TURNED"
 
 # In a closed room that is baked all around, little is left open.
