@@ -7,15 +7,14 @@
 #include "editor/session/installed_sample.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/physical_memory.h"
+#include "engine/base/program_file.h"
 #include "engine/cli/reference/reference.h"
 
 namespace {
 
 /// The user's copy of the sample that is installed with this program; empty where there is none.
 std::filesystem::path ownSample() {
-  std::error_code error;
-  const auto installed =
-      acentric::editor::installedSample(std::filesystem::read_symlink("/proc/self/exe", error));
+  const auto installed = acentric::editor::installedSample(acentric::ownProgram());
   const auto folder = acentric::editor::userDataFolder();
   if (installed.empty() || folder.empty()) return {};
   const auto copy = acentric::editor::copyOfSample(installed, folder);

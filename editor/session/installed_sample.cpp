@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdlib>
+#include "editor/session/user_folder.h"
 
 namespace acentric::editor {
 namespace {
@@ -17,13 +17,7 @@ fs::path installedSample(const fs::path& program) {
   return fs::is_regular_file(folder / kProject, error) ? folder : fs::path();
 }
 
-fs::path userDataFolder() {
-  const char* data = std::getenv("XDG_DATA_HOME");
-  if (data != nullptr && *data == '/') return fs::path(data) / "acentric";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && *home != '\0') return fs::path(home) / ".local/share/acentric";
-  return {};
-}
+fs::path userDataFolder() { return userFolder("XDG_DATA_HOME", ".local/share"); }
 
 Result<fs::path> copyOfSample(const fs::path& installed, const fs::path& folder) {
   const fs::path sample = folder / "gallery";

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "editor/session/engine_texts.h"
 #include "editor/session/project_files.h"
 #include "editor/session/settings_file.h"
+#include "editor/session/user_folder.h"
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
 #include "ui/translate.h"
@@ -123,11 +123,8 @@ fs::path startUpFile(const Preferences& preferences, const fs::path& sample) {
 }
 
 fs::path preferencesFile() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  if (config != nullptr && *config == '/') return fs::path(config) / "acentric" / "editor.json";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && *home != '\0') return fs::path(home) / ".config" / "acentric" / "editor.json";
-  return {};
+  const fs::path folder = userFolder("XDG_CONFIG_HOME", ".config");
+  return folder.empty() ? folder : folder / "editor.json";
 }
 
 Preferences loadPreferences(const fs::path& file, std::string* problem) {

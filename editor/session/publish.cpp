@@ -8,6 +8,7 @@
 #include "editor/session/engine_texts.h"
 #include "editor/session/project_files.h"
 #include "engine/base/priority.h"
+#include "engine/base/program_file.h"
 #include "engine/base/stopwatch.h"
 #include "ui/text_format.h"
 #include "ui/translate.h"
@@ -75,7 +76,7 @@ Publisher::Outcome Publisher::write(const OpenProject& open, const PublishPlace&
   options.page = page;
   std::error_code error;
   if (page.empty()) {
-    auto found = findWebPage(fs::read_symlink("/proc/self/exe", error));
+    auto found = findWebPage(ownProgram());
     if (!found) return tl::unexpected(found.error());
     options.page = std::move(*found);
   }

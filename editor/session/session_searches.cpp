@@ -114,16 +114,15 @@ void Session::fitToFloor() {
   if (const auto known = inspection()) options.shift.crowding.trustSides = !known->placement.ignoredSides;
   searching_.restart(tr("Fitting the cells"), [this, open = built_, options](const Job::Context& context) {
     context.progress()({0, 0, trLater("placing the cells")});
-    const LayoutSpec& laid = open->project.layout();
-    const LatticeFit fit = fitLattice(laid, options, probeFor(*open->rays), context.stop());
+    const LatticeFit fit = fitLattice(open->project.layout(), options, probeFor(*open->rays), context.stop());
     if (context.stop().stop_requested()) return;
-    context.post([this, open, fit, from = buildLayout(laid), to = buildLayout(fit.spec)] {
-      if (!from || !to || fit.spec == open->project.layout())
+    context.post([this, open, fit, to = buildLayout(fit.spec)] {
+      if (!to || fit.spec == open->project.layout())
         return messages_.add(MessageLevel::info,
                              tr("The cells fit the floor already; smaller ones may fit it better"));
       offerLayout(*open, fit.spec, tr("Fit the cells to the floor"),
                   trf("{} cameras instead of {}; {:.1f} % of the floor lies in cells", to->cameras.size(),
-                      from->cameras.size(), 100 * fit.served));
+                      open->layout->cameras.size(), 100 * fit.served));
     });
   });
 }

@@ -13,6 +13,7 @@
 #include "editor/session/engine_texts.h"
 #include "engine/base/contract.h"
 #include "engine/base/file.h"
+#include "engine/base/program_file.h"
 #include "engine/base/spawn.h"
 #include "engine/pipeline/knobs.h"
 #include "ui/translate.h"
@@ -37,8 +38,7 @@ std::string lastLineOf(const fs::path& log) {
 }  // namespace
 
 SweepWatch::SweepWatch(fs::path program, Kind kind) : program_(std::move(program)), kind_(kind) {
-  std::error_code error;
-  if (program_.empty()) program_ = fs::read_symlink("/proc/self/exe", error).parent_path() / "acentric";
+  if (program_.empty()) program_ = ownProgram().parent_path() / "acentric";
 }
 
 SweepWatch::~SweepWatch() { forgetProcess(); }

@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "editor/session/user_folder.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_text.h"
@@ -47,11 +47,8 @@ Result<Json> readJson(const fs::path& autosave) {
 }  // namespace
 
 fs::path unsavedWorkFolder() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  if (state != nullptr && *state == '/') return fs::path(state) / "acentric" / "unsaved";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && *home != '\0') return fs::path(home) / ".local/state/acentric/unsaved";
-  return {};
+  const fs::path folder = userFolder("XDG_STATE_HOME", ".local/state");
+  return folder.empty() ? folder : folder / "unsaved";
 }
 
 fs::path unsavedWorkFile(const fs::path& folder, const fs::path& projectFile) {

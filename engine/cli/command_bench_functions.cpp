@@ -6,6 +6,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_text.h"
+#include "engine/base/program_file.h"
 #include "engine/cli/commands.h"
 #include "engine/cli/machine/figure.h"
 #include "engine/cli/run_command.h"
@@ -96,7 +97,7 @@ std::string toText(const Json& report) {
 
 Result<Report> runBenchFunctions(const BenchFunctionsOptions& options, const Common& common) {
   std::error_code error;
-  const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path own = ownProgram().parent_path();
   const auto folder = TrialFolder::make(fs::temp_directory_path(error));
   if (!folder) return tl::unexpected(folder.error());
   const fs::path file = folder->path() / "figures.json";

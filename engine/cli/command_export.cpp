@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/base/file.h"
+#include "engine/base/program_file.h"
 #include "engine/cli/commands.h"
 #include "engine/export/walk_write.h"
 #include "engine/pipeline/publish_walk.h"
@@ -95,8 +96,7 @@ Result<Report> runExport(const ExportOptions& options, const Common& common) {
     return fail(ErrorKind::invalidArgument, "--single-file is a page: say --to web");
   fs::path page;
   if (web) {
-    std::error_code error;
-    auto found = findWebPage(fs::read_symlink("/proc/self/exe", error));
+    auto found = findWebPage(ownProgram());
     if (!found) return tl::unexpected(found.error());
     page = std::move(*found);
   }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "engine/base/file.h"
+#include "engine/base/program_file.h"
 #include "engine/base/stopwatch.h"
 #include "engine/cli/bake_notice.h"
 #include "engine/cli/commands.h"
@@ -72,7 +73,7 @@ Result<Report> runFarmSlurm(const FarmSlurmOptions& options, const Common& commo
 
   std::error_code error;
   FarmOptions farm;
-  farm.program = fs::read_symlink("/proc/self/exe", error);
+  farm.program = ownProgram();
   if (!options.program.empty()) farm.program = options.program;
   farm.project = fs::absolute(options.project, error).lexically_normal();
   farm.storey = common.storey;

@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "engine/base/program_file.h"
 #include "engine/cli/commands.h"
 #include "engine/export/bundle.h"
 #include "engine/export/web_page.h"
@@ -22,7 +23,7 @@ Result<fs::path> pageFor(const fs::path& subject) {
   const bool folder = fs::is_directory(subject, error);
   if (folder && !fs::exists(subject / kBundleIndex, error)) return fs::path();  // whatever it is
   if (folder && fs::exists(subject / kPageFiles.back(), error)) return fs::path();
-  return findWebPage(fs::read_symlink("/proc/self/exe", error));
+  return findWebPage(ownProgram());
 }
 
 Result<std::unique_ptr<FolderServer>> startServer(const ServeCommandOptions& options, ServeOptions serving) {

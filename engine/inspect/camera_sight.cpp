@@ -30,11 +30,11 @@ bool isHidden(const glm::dvec3& point, const LayoutCamera& camera, const ConvexP
 
 bool CameraSight::suffices() const { return places > 0 && hidden <= kHiddenShare * shown; }
 
-void lookFrom(const std::vector<glm::dvec2>& places, const Layout& layout, const Region& region,
-              const Bounds& bounds, const SurfaceProbe& probe, std::vector<CameraSight>& sights) {
+std::map<int, CameraSight> lookFrom(const std::vector<glm::dvec2>& places, const Layout& layout,
+                                    const Region& region, const Bounds& bounds, const SurfaceProbe& probe) {
+  std::map<int, CameraSight> sights;
   for (const Cover& cover : region.covers)
-    for (const Piece& piece : cover.pieces)
-      sights[std::size_t(piece.camera)].places += static_cast<int>(places.size());
+    for (const Piece& piece : cover.pieces) sights[piece.camera].places += static_cast<int>(places.size());
   const double far = double(glm::length(bounds.size())) + 1;  // where the sky is
   for (const glm::dvec2& place : places)
     for (const double slope : kSlopes)
@@ -49,10 +49,11 @@ void lookFrom(const std::vector<glm::dvec2>& places, const Layout& layout, const
           for (const Piece& piece : cover.pieces) {
             if (!piece.holds(glm::dvec2(point))) continue;
             const LayoutCamera& camera = layout.cameras[std::size_t(piece.camera)];
-            sights[std::size_t(piece.camera)].add(
+            sights[piece.camera].add(
                 {0, 1, isHidden(point, camera, region.grown, layout.eyeZ(), probe) ? 1 : 0});
           }
       }
+  return sights;
 }
 
 }  // namespace acentric

@@ -3,6 +3,7 @@
 /// and yet be none to mend: where the wall lies within the cell, it is drawn as local geometry, and what is
 /// behind it nobody sees.
 
+#include <map>
 #include <vector>
 
 #include "engine/inspect/surface_probe.h"
@@ -21,9 +22,9 @@ struct CameraSight {
   bool suffices() const;
 };
 
-/// Looks around from places in one region, level and half up and down; adds to what its cameras (into
+/// Looks around from places in one region, level and half up and down: what its cameras (into
 /// Layout::cameras) show.
-void lookFrom(const std::vector<glm::dvec2>& places, const Layout& layout, const Region& region,
-              const Bounds& bounds, const SurfaceProbe& probe, std::vector<CameraSight>& sights);
+std::map<int, CameraSight> lookFrom(const std::vector<glm::dvec2>& places, const Layout& layout,
+                                    const Region& region, const Bounds& bounds, const SurfaceProbe& probe);
 
 }  // namespace acentric

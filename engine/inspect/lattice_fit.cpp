@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "engine/geometry/round_to.h"
 #include "engine/inspect/cell_mask.h"
 #include "engine/inspect/floor_levels.h"
 
@@ -138,7 +139,7 @@ std::vector<double> turnsFor(const LayoutSpec& spec) {
   const auto add = [&](double turn) {
     // Of whole halves of degrees, which project files hold exactly; along the walls or across them for
     // lattices of all kinds.
-    const double tidy = radians(std::round(degrees(turn) / kTurnAccuracy) * kTurnAccuracy);
+    const double tidy = radians(roundTo(degrees(turn), kTurnAccuracy));
     const auto alike = [&](double other) {
       const double apart = std::abs(std::remainder(tidy - other, period));
       return apart < radians(2 * kTurnAccuracy);
@@ -181,7 +182,7 @@ LatticeFit fitLattice(const LayoutSpec& spec, const LatticeFitOptions& options, 
   };
   // Whatever the lattice is now, the same places are tried: fitted again, it stays.
   const auto tidy = [rounding = options.shift.rounding](const glm::dvec2& origin) {
-    return rounding > 0 ? glm::round(origin / rounding) * rounding : origin;
+    return glm::dvec2(roundTo(origin.x, rounding), roundTo(origin.y, rounding));
   };
   const auto [low, high] = boxAround(spec.outline);
   const glm::dvec2 corner = tidy(0.5 * (low + high));

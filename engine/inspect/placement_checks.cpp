@@ -100,13 +100,13 @@ class Checker {
   }
 
   /// What the region's cameras show of what is seen where one can stand in it.
-  void lookFrom(const Region& region, std::vector<CameraSight>& sights) const {
+  std::map<int, CameraSight> lookFrom(const Region& region) const {
     std::vector<glm::dvec2> standing = placesIn(region);
     std::erase_if(standing, [&](const auto& place) { return !canStandAt(place, region); });
     std::vector<glm::dvec2> some;
     const std::size_t step = standing.size() / kPlacesSeenFrom + 1;
     for (std::size_t k = 0; k < standing.size(); k += step) some.push_back(standing[k]);
-    acentric::lookFrom(some, layout_, region, bounds_, probe_, sights);
+    return acentric::lookFrom(some, layout_, region, bounds_, probe_);
   }
 
  private:
@@ -234,10 +234,9 @@ void excuseWhatSuffices(PlacementReport& report, const Layout& layout, const Che
   std::mutex adding;
   runner.parallelFor(regions.size(), [&](std::size_t k) {
     if (stop.stop_requested()) return;
-    std::vector<CameraSight> here(layout.cameras.size());
-    checker.lookFrom(layout.regions[regions[k]], here);
+    const std::map<int, CameraSight> here = checker.lookFrom(layout.regions[regions[k]]);
     const std::scoped_lock lock(adding);
-    for (std::size_t c = 0; c < here.size(); ++c) sights[c].add(here[c]);
+    for (const auto& [camera, sight] : here) sights[std::size_t(camera)].add(sight);
   });
   for (PlacementFinding& finding : report.findings) {
     CameraSight sight;

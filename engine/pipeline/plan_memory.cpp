@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "engine/base/program_file.h"
 #include "engine/scene/import_cache.h"
 
 namespace acentric {
@@ -57,7 +58,7 @@ PlanMemory::PlanMemory(const fs::path& file, std::optional<int> storey, const st
       Hasher().text(absolute.string()).value(storey.value_or(-1)).finish().toHex() + ".acplan";
   entry_ = folder / name;
   Hasher hasher;
-  addState(hasher, fs::read_symlink("/proc/self/exe", error));
+  addState(hasher, ownProgram());
   asked_ =
       hasher.text("acentric plan 1").text(absolute.string()).value(storey.value_or(-1)).text(text).finish();
 }
