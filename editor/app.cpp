@@ -149,7 +149,8 @@ bool App::inputBlocked() const {
 
 void App::runShortcuts(PanelContext& context) {
   if (popupOpen()) return;  // not inputBlocked: keys reach past what lies under the pointer
-  for (const ui::InputEvent& event : context.events) {
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const ui::InputEvent event = events_[i];
     if (event.kind != ui::InputEvent::Kind::keyPress) continue;
     if (event.code == ui::key::escape) state_.fullScreen = false;
     const Shortcut pressed{event.code, event.modifiers & ui::modifier::all};
@@ -158,6 +159,12 @@ void App::runShortcuts(PanelContext& context) {
     const Action* action = findAction(table_, pressed);
     if (action == nullptr || (typing && action->id != "file.save" && action->id != "file.quit")) continue;
     runAction(context, *action);
+    if (state_.dialog == Dialog::none) continue;
+    // What follows is meant for the dialog, which is there in the next frame.
+    const auto rest = events_.begin() + std::ptrdiff_t(i) + 1;
+    window_->input().putBack({rest, events_.end()});
+    events_.erase(rest, events_.end());
+    window_->pacer().request(1);
   }
 }
 

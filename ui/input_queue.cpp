@@ -1,5 +1,7 @@
 #include "ui/input_queue.h"
 
+#include <iterator>
+
 #include "ui/keys.h"
 
 namespace acentric::ui {
@@ -48,6 +50,11 @@ std::vector<InputEvent> InputQueue::take() {
   std::vector<InputEvent> taken;
   taken.swap(events_);
   return taken;
+}
+
+void InputQueue::putBack(std::vector<InputEvent> events) {
+  events_.insert(events_.begin(), std::make_move_iterator(events.begin()),
+                 std::make_move_iterator(events.end()));
 }
 
 void InputQueue::releaseAll(double seconds) {

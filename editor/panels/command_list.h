@@ -27,6 +27,7 @@ class CommandList {
   bool enter_ = false, escape_ = false;
   bool shown_ = false;
   bool scroll_ = false;
+  bool early_ = false;  ///< the field doesn't take text yet
 };
 
 }  // namespace acentric::editor

@@ -22,7 +22,9 @@ class VariantCompareTest : public OpenSessionTest {
   VariantRequest request() {
     VariantRequest wanted;
     wanted.now = session_->built();
-    wanted.view.eye = {wanted.now->project.spawn().position, wanted.now->layout->eyeZ()};
+    const Spawn& start = wanted.now->project.spawn();
+    wanted.view.eye = {start.position, wanted.now->layout->eyeZ()};
+    wanted.view.yawRadians = start.yawRadians;
     wanted.view.width = 120, wanted.view.height = 80;
     wanted.memoryBytes = std::size_t(1) << 28;
     TaskRunner runner(1);

@@ -32,6 +32,19 @@ TEST(InputQueue, RemembersWhereAButtonWentDownThoughThePointerMovedOn) {
   EXPECT_EQ(queue.pointer(), glm::dvec2(90, 80));
 }
 
+TEST(InputQueue, GivesWhatWasPutBackBeforeWhatCameSince) {
+  InputQueue queue;
+  queue.push(InputEvent{InputEvent::Kind::keyPress, 'A'});
+  queue.push(InputEvent{InputEvent::Kind::keyPress, 'B'});
+  std::vector<InputEvent> taken = queue.take();
+  queue.push(InputEvent{InputEvent::Kind::keyPress, 'C'});
+  queue.putBack({taken.begin() + 1, taken.end()});
+  taken = queue.take();
+  ASSERT_EQ(taken.size(), 2U);
+  EXPECT_EQ(taken[0].code, 'B');
+  EXPECT_EQ(taken[1].code, 'C');
+}
+
 TEST(InputQueue, MergesMovesThatFollowOneAnother) {
   InputQueue queue;
   for (int i = 0; i < 50; ++i) queue.push({Kind::move, 0, 0, {double(i), 0}, {}, 0});
