@@ -23,8 +23,9 @@ endfunction()
 
 acentric_precompiled(acentric_precompiled_library)
 acentric_precompiled(acentric_precompiled_program PROGRAM)
+target_compile_options(acentric_precompiled_program PRIVATE ${ACENTRIC_CALLER_OPTIMIZATION})
 if(ACENTRIC_TESTS)
   acentric_precompiled(acentric_precompiled_test PROGRAM
     LINK GTest::gmock GTest::gtest_main HEADERS <gmock/gmock.h> <gtest/gtest.h>)
-  target_compile_options(acentric_precompiled_test PRIVATE ${ACENTRIC_TEST_OPTIMIZATION})
+  target_compile_options(acentric_precompiled_test PRIVATE ${ACENTRIC_CALLER_OPTIMIZATION})
 endif()
