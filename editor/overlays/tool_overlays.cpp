@@ -114,7 +114,8 @@ void drawOutlineRectangle(ImDrawList& list, const ui::CanvasView& view, std::spa
   ui::drawConvex(list, view, corners, palette::accent.withOpacity(0.10F), palette::accent, 2);
   const glm::dvec2 size = corners[2] - corners[0];
   drawBeside(list, view, font, view.screenFromWorld({corners[2].x, corners[0].y}),
-             fmt::format("{:.2f} m x {:.2f} m = {:.1f} m²", size.x, size.y, size.x * size.y), palette::text);
+             fmt::format("{:.2f} m x {:.2f} m = {}", size.x, size.y, ui::formatArea(size.x * size.y)),
+             palette::text);
 }
 
 void drawOutlineFaults(ImDrawList& list, const ui::CanvasView& view, std::span<const OutlineFault> faults,
@@ -135,7 +136,7 @@ void drawOutlineFaults(ImDrawList& list, const ui::CanvasView& view, std::span<c
 void drawLoopAreas(ImDrawList& list, const ui::CanvasView& view, std::span<const LoopArea> areas,
                    ImFont* font) {
   for (const LoopArea& area : areas) {
-    const std::string text = fmt::format("{}{:.1f} m²", area.hole ? tr("hole, ") : "", area.squareMetres);
+    const std::string text = (area.hole ? tr("hole, ") : "") + ui::formatArea(area.squareMetres);
     const ImVec2 size = sizeOf(font, text);
     const glm::dvec2 at = view.screenFromWorld(area.place);
     if (!view.contains(at)) continue;

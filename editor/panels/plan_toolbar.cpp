@@ -8,6 +8,7 @@
 
 #include "editor/commands/density_edits.h"
 #include "editor/panels/toolbar_flow.h"
+#include "ui/text_format.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
@@ -87,7 +88,7 @@ void drawOutlineRow(PanelContext& context) {
   const Outline& outline = context.session().project().layout().outline;
   ImGui::AlignTextToFramePadding();
   ui::mutedText(outline.empty() ? std::string(tr("No outline"))
-                                : trf("Outline of {:.1f} m²", outline.area()));
+                                : trf("Outline of {}", ui::formatArea(outline.area())));
   ImGui::SameLine(0, ui::scaled(10));
   actionButton(context, "outline.fromScene", ButtonLook::plain, {}, tr("From the scene"));
   ImGui::SameLine(0, ui::scaled(kNear));

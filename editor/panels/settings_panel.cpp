@@ -95,8 +95,8 @@ void drawLayout(PanelContext& context, ConfigurationPicker& configurations) {
   if (spec.outline.empty()) {
     ui::mutedText(tr("none: cells only by hand"));
   } else {
-    ImGui::TextUnformatted(trfMany("{:.1f} m², {} loop", "{:.1f} m², {} loops", spec.outline.loops.size(),
-                                   spec.outline.area(), spec.outline.loops.size())
+    ImGui::TextUnformatted(trfMany("{}, {} loop", "{}, {} loops", spec.outline.loops.size(),
+                                   ui::formatArea(spec.outline.area()), spec.outline.loops.size())
                                .c_str());
     actionButton(context, "layout.fit", ButtonLook::plain, {});
   }

@@ -9,6 +9,7 @@
 #include "engine/inspect/refine.h"
 #include "engine/pipeline/scene_probe.h"
 #include "engine/pipeline/stair_storeys.h"
+#include "ui/text_format.h"
 #include "ui/translate.h"
 
 namespace acentric::editor {
@@ -90,8 +91,9 @@ void Session::outlineFromScene() {
         return messages_.add(MessageLevel::info, tr("The outline is the scene's walkable area already"));
       LayoutSpec spec = open->project.layout();
       spec.outline = *outline;
-      offerLayout(*open, spec, tr("Outline from the scene"),
-                  trf("The walkable area about {:.2f} m is {:.1f} m²", spec.floorHeight, outline->area()));
+      offerLayout(
+          *open, spec, tr("Outline from the scene"),
+          trf("The walkable area about {:.2f} m is {}", spec.floorHeight, ui::formatArea(outline->area())));
     });
   });
 }
