@@ -9,13 +9,13 @@ PREFERENCES=$WORK/config/acentric/editor.json
 spoken() { grep '^event language' "$WORK/ui.log" | tail -1 | cut -d' ' -f3; }
 # width NAME: of a widget, pixels
 width() { rect "$1" | awk '{ print $5 - $3 }'; }
+# is_found ACTION: the look-up shows it, and not every command
+is_found() { rect "command.$1" >/dev/null && ! rect command.tool.cells >/dev/null; }
 # finds TEXT ACTION: the look-up of commands shows that action for what is typed, at once after its key
 finds() {
   xdotool key ctrl+shift+p
   xdotool type "$1"
-  wait_until 10 rect commands.query >/dev/null || fail "the look-up does not open"
-  wait_until 10 is_gone command.tool.cells || fail "\"$1\" is not looked for"
-  rect "command.$2" >/dev/null || fail "\"$1\" does not find $2"
+  wait_until 10 is_found "$2" || fail "\"$1\" does not find $2"
   press Escape
   wait_until 10 is_gone commands.query || fail "Esc does not close the look-up"
 }
