@@ -15,11 +15,6 @@ if(CCACHE)  # told so, it also keeps what precompiled headers went into
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
-find_program(MOLD mold)
-if(MOLD AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")  # it links in a quarter of the time of ld
-  add_link_options(-fuse-ld=mold)
-endif()
-
 add_library(acentric_options INTERFACE)
 target_compile_options(acentric_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-qual -Wold-style-cast)
