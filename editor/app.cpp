@@ -150,7 +150,7 @@ bool App::inputBlocked() const {
 void App::runShortcuts(PanelContext& context) {
   if (popupOpen()) return;  // not inputBlocked: keys reach past what lies under the pointer
   for (std::size_t i = 0; i < events_.size(); ++i) {
-    const ui::InputEvent event = events_[i];
+    const ui::InputEvent& event = events_[i];
     if (event.kind != ui::InputEvent::Kind::keyPress) continue;
     if (event.code == ui::key::escape) state_.fullScreen = false;
     const Shortcut pressed{event.code, event.modifiers & ui::modifier::all};

@@ -1,7 +1,5 @@
 #include "ui/input_queue.h"
 
-#include <iterator>
-
 #include "ui/keys.h"
 
 namespace acentric::ui {
@@ -52,9 +50,8 @@ std::vector<InputEvent> InputQueue::take() {
   return taken;
 }
 
-void InputQueue::putBack(std::vector<InputEvent> events) {
-  events_.insert(events_.begin(), std::make_move_iterator(events.begin()),
-                 std::make_move_iterator(events.end()));
+void InputQueue::putBack(const std::vector<InputEvent>& events) {
+  events_.insert(events_.begin(), events.begin(), events.end());
 }
 
 void InputQueue::releaseAll(double seconds) {

@@ -27,7 +27,7 @@ class InputQueue {
   /// What happened since the last call, oldest first.
   std::vector<InputEvent> take();
   /// The last of what take() gave, to be given again.
-  void putBack(std::vector<InputEvent> events);
+  void putBack(const std::vector<InputEvent>& events);
   /// What take() would give.
   const std::vector<InputEvent>& pending() const { return events_; }
   bool empty() const { return events_.empty(); }
