@@ -32,23 +32,30 @@ void showProblem(EditorState& state, const ProblemPlace& place) {
   if (place.bakeCameras) state.showBakeCameras = true;
 }
 
-Edit pushOut(const Project& project, const ProblemFix& fix) {
-  const LayoutSpec& spec = project.layout();
-  if (!fix.freeApv) {
-    Edit edit = setLatticeOrigin(project, spec.latticeOrigin + fix.push);
-    edit.label = trf("Shift the lattice by {:.2f} m", glm::length(fix.push));
-    return edit;
-  }
-  const auto found = spec.freeApvs.find(*fix.freeApv);
-  if (found == spec.freeApvs.end()) return {project, tr("Move a panorama")};
-  Apv moved = found->second;
-  moved.centre += fix.push;
-  return setFreeApv(project, *fix.freeApv, moved);
-}
-
-Edit changeScale(const Project& project, const Scene& scene, const ProblemFix& fix) {
-  const double metres = fix.metresPerUnit.value_or(scene.report.metresPerUnit);
-  return {atScale(project, scene, metres), trf("Scale the model to {:g} metres per unit", metres)};
+std::optional<Edit> editOf(const ProblemFix& fix, const Project& project, const Scene& scene) {
+  struct {
+    const Project& project;
+    const Scene& scene;
+    std::optional<Edit> operator()(const RunAction&) const { return std::nullopt; }
+    std::optional<Edit> operator()(const MoveFreeApv& move) const {
+      const auto found = project.layout().freeApvs.find(move.number);
+      if (found == project.layout().freeApvs.end()) return std::nullopt;
+      Apv moved = found->second;
+      moved.centre += move.by;
+      return setFreeApv(project, move.number, moved);
+    }
+    std::optional<Edit> operator()(const AddPanorama& add) const {
+      return addFreeApv(project, Apv{add.place, {0, 0}});
+    }
+    std::optional<Edit> operator()(const RemoveCell& remove) const {
+      return removeCells(project, {remove.cell});
+    }
+    std::optional<Edit> operator()(const ScaleModel& scale) const {
+      return Edit{atScale(project, scene, scale.metresPerUnit),
+                  trf("Scale the model to {:g} metres per unit", scale.metresPerUnit)};
+    }
+  } const edit{project, scene};
+  return std::visit(edit, fix.way);
 }
 
 }  // namespace acentric::editor

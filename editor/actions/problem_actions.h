@@ -8,8 +8,6 @@ namespace acentric::editor {
 
 /// Selects its cells, frames them in the plan, switches what shows it on, opens the settings' section.
 void showProblem(EditorState& state, const ProblemPlace& place);
-/// A move in plan as an edit.
-Edit pushOut(const Project& project, const ProblemFix& fix);
-/// The model at the scale that `fix` states, the layout with it. `scene` is the project's as it is now.
-Edit changeScale(const Project& project, const Scene& scene, const ProblemFix& fix);
+/// The way out as an edit; nothing where it is an action. `scene` is the project's as it is now.
+std::optional<Edit> editOf(const ProblemFix& fix, const Project& project, const Scene& scene);
 }  // namespace acentric::editor

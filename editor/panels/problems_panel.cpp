@@ -10,29 +10,33 @@ namespace {
 
 constexpr float kButtonsWidth = 158, kLeastBeside = 460;  // narrower: buttons below the text
 
+/// What a way out does that is no action.
+const char* helpOf(const ProblemFix& fix) {
+  if (std::holds_alternative<MoveFreeApv>(fix.way)) return tr("The smallest move that clears it");
+  if (std::holds_alternative<AddPanorama>(fix.way))
+    return tr("Six cameras where one can stand in the cell: they show what its own don't see");
+  if (std::holds_alternative<RemoveCell>(fix.way)) return tr("Nobody can stand in it, so nothing is lost");
+  return tr("Imports the model again at this scale; cells, outline and paths stay where they are on it");
+}
+
 void drawFix(PanelContext& context, const ProblemFix& fix, int row) {
   Session& session = context.session();
-  const Action* action = fix.action.empty() ? nullptr : findAction(context.table, fix.action);
-  const bool possible = action == nullptr || action->enabled(context.actions);
+  const auto* run = std::get_if<RunAction>(&fix.way);
+  const Action* action = run != nullptr ? findAction(context.table, run->id) : nullptr;
+  const bool possible = action == nullptr ? session.built() != nullptr : action->enabled(context.actions);
   ImGui::BeginDisabled(!possible);
   const bool clicked = ImGui::SmallButton(fix.label.c_str());
   ImGui::EndDisabled();
   context.log.item(fmt::format("problem.{}.fix", row));
-  if (fix.metresPerUnit)
-    ui::tooltip(
-        tr("Imports the model again at this scale; cells, outline and paths stay where they are on it"));
-  else if (action == nullptr)
-    ui::tooltip(fix.freeApv ? tr("The smallest move that clears it")
-                            : tr("The smallest move that clears it; all cells of the lattice go along"));
-  else if (!action->help.empty())
+  if (run == nullptr)
+    ui::tooltip(helpOf(fix));
+  else if (action != nullptr && !action->help.empty())
     ui::tooltip(tr(action->help));
   if (!clicked || !possible) return;
   if (action != nullptr)
     runAction(context, *action);
-  else if (fix.metresPerUnit && session.built())
-    session.apply(changeScale(session.project(), *session.built()->scene, fix));
-  else if (!fix.metresPerUnit)
-    session.apply(pushOut(session.project(), fix));
+  else if (auto edit = editOf(fix, session.project(), *session.built()->scene))
+    session.apply(*std::move(edit));
 }
 
 void drawRow(PanelContext& context, const Problem& problem, int row, bool beside) {

@@ -58,6 +58,18 @@ std::vector<const PlacementFinding*> toMend(const PlacementReport& report) {
   return findings;
 }
 
+/// `region` uses the cameras of the finding, or is what it is about; null: none is known.
+std::optional<ProblemFix> fixOf(const PlacementFinding& finding, const Region* region, bool withoutRoom) {
+  if (region != nullptr && region->id.slot == kFreeSlot) {
+    if (!finding.push) return std::nullopt;
+    return ProblemFix{trf("Move {:.2f} m", glm::length(*finding.push)),
+                      MoveFreeApv{region->id.i, *finding.push}};
+  }
+  if (finding.panorama) return ProblemFix{tr("Add a panorama"), AddPanorama{*finding.panorama}};
+  if (region != nullptr && withoutRoom) return ProblemFix{tr("Remove the cell"), RemoveCell{region->id}};
+  return ProblemFix{tr("Fit cells"), RunAction{"layout.fit"}};
+}
+
 void addPlacement(Problems& problems, const Inspection& inspection) {
   const Layout& layout = *inspection.layout;
   const auto& findings = inspection.placement.findings;
@@ -65,6 +77,9 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
   const std::vector<const PlacementFinding*> worst = toMend(inspection.placement);
   if (!worst.empty()) {
     const std::vector<int> regionOf = regionsOfCameras(layout);
+    std::set<int> withoutRoom;
+    for (const PlacementFinding& finding : findings)
+      if (finding.flaw == PlacementFlaw::noStandingRoom) withoutRoom.insert(finding.region);
     const std::size_t listed = std::min(worst.size(), kMostOfAKind);
     for (const PlacementFinding* finding : std::span(worst).first(listed)) {
       const int of = finding->region >= 0        ? finding->region
@@ -79,19 +94,14 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
                            ? nameOf(*region) + ": " + engineText(finding->reason)
                            : trf("{}, a camera: {}", nameOf(*region), engineText(finding->reason));
       }
-      const bool free = region != nullptr && region->id.slot == kFreeSlot;
-      if (!free) problem.fix = ProblemFix{tr("Fit cells"), "layout.fit"};
-      if (finding->push)
-        problem.fix = ProblemFix{free ? trf("Move {:.2f} m", glm::length(*finding->push))
-                                      : trf("Shift all cells {:.2f} m", glm::length(*finding->push)),
-                                 "", *finding->push, free ? std::optional(region->id.i) : std::nullopt};
+      problem.fix = fixOf(*finding, region, of >= 0 && withoutRoom.contains(of));
       problems.push_back(std::move(problem));
     }
     if (const std::size_t more = worst.size() - listed; more > 0)
       problems.push_back({Severity::warning,
                           trf("{} more where cameras or cells stand badly", more),
                           {.look = PlanLook::checks},
-                          ProblemFix{tr("Fit cells"), "layout.fit"}});
+                          ProblemFix{tr("Fit cells"), RunAction{"layout.fit"}}});
   }
   const std::size_t suffice = std::size_t(std::ranges::count(findings, true, &PlacementFinding::suffices));
   if (const std::size_t looks = notes - suffice; looks > 0)
@@ -106,8 +116,9 @@ void addBudget(Problems& problems, const Inspection& inspection, const TriangleB
   const Layout& layout = *inspection.layout;
   const auto over = inspection.budgets.over(std::size_t(budget.trianglesPerRegion));
   const Severity severity = budget.simplifies() ? Severity::note : Severity::warning;
-  const ProblemFix fix = canSplit(layout.spec.configuration) ? ProblemFix{tr("Split"), "budget.split"}
-                                                             : ProblemFix{tr("Fit cells"), "budget.fit"};
+  const ProblemFix fix = canSplit(layout.spec.configuration)
+                             ? ProblemFix{tr("Split"), RunAction{"budget.split"}}
+                             : ProblemFix{tr("Fit cells"), RunAction{"budget.fit"}};
   for (std::size_t i = 0; i < std::min(over.size(), kMostOfAKind); ++i) {
     const Region& region = layout.regions[std::size_t(over[i])];
     ProblemPlace place = placeOf(region, PlanLook::triangles);
@@ -141,14 +152,14 @@ void addCaptures(Problems& problems, const ProblemFacts& facts) {
     Problem problem{Severity::error,
                     trf("Camera {} could not be baked: {}", failed.camera, failed.error),
                     {.bakeCameras = true},
-                    ProblemFix{tr("Bake"), "bake.start"}};
+                    ProblemFix{tr("Bake"), RunAction{"bake.start"}}};
     problems.push_back(std::move(problem));
   }
   if (facts.captures == nullptr) return;
   const CaptureStatus& captures = *facts.captures;
   const std::size_t missing = captures.cameras.size() - std::size_t(captures.baked);
   const auto stale = std::size_t(std::ranges::count(captures.stale, true));
-  const ProblemFix bake{tr("Bake"), "bake.start"};
+  const ProblemFix bake{tr("Bake"), RunAction{"bake.start"}};
   if (stale > 0)
     problems.push_back({Severity::warning,
                         trfMany("{} capture is out of date: what is shown was changed since",
@@ -180,7 +191,7 @@ void addScene(Problems& problems, const ProblemFacts& facts) {
                             facts.scene.fromCache ? tr("it is shown as it was last imported")
                                                   : tr("nothing of it can be shown")),
                         {.section = "Scene"},
-                        ProblemFix{tr("Locate…"), "file.locate"}});
+                        ProblemFix{tr("Locate…"), RunAction{"file.locate"}}});
   if (facts.scene.state == SceneFiles::State::changed)
     problems.push_back(
         {Severity::warning,
@@ -188,7 +199,7 @@ void addScene(Problems& problems, const ProblemFacts& facts) {
              facts.scene.changed.size() == 1 ? facts.scene.changed.front().filename().string()
                                              : trf("{} files of the model", facts.scene.changed.size())),
          {.section = "Scene"},
-         ProblemFix{tr("Import again"), "file.reimport"}});
+         ProblemFix{tr("Import again"), RunAction{"file.reimport"}}});
   for (const std::string& line : facts.built->scene->report.ignored)
     if (line.starts_with("texture "))
       problems.push_back({Severity::warning, trf("Not shown: {}", line), {.section = "Scene"}});
@@ -198,12 +209,12 @@ void addScene(Problems& problems, const ProblemFacts& facts) {
 void addScale(Problems& problems, const ProblemFacts& facts) {
   const auto& doubt = facts.inspection->scale;
   if (!doubt || facts.built->project.import.metresPerUnit > 0) return;
-  problems.push_back({Severity::warning,
-                      trf("Is the scale right? {}. If it is right, enter {:g} metres per unit",
-                          engineText(doubt->text), facts.built->scene->report.metresPerUnit),
-                      {.section = "Scene"},
-                      ProblemFix{.label = trf("Scale to {:g}", doubt->metresPerUnit),
-                                 .metresPerUnit = doubt->metresPerUnit}});
+  problems.push_back(
+      {Severity::warning,
+       trf("Is the scale right? {}. If it is right, enter {:g} metres per unit", engineText(doubt->text),
+           facts.built->scene->report.metresPerUnit),
+       {.section = "Scene"},
+       ProblemFix{trf("Scale to {:g}", doubt->metresPerUnit), ScaleModel{doubt->metresPerUnit}}});
 }
 
 void addFiles(Problems& problems, const ProblemFacts& facts) {
@@ -211,12 +222,12 @@ void addFiles(Problems& problems, const ProblemFacts& facts) {
     problems.push_back({Severity::warning,
                         trf("The project is read-only here: it is open at {}", describe(*facts.lockedBy)),
                         {},
-                        ProblemFix{tr("Save as…"), "file.saveAs"}});
+                        ProblemFix{tr("Save as…"), RunAction{"file.saveAs"}}});
   if (facts.projectFileChanged)
     problems.push_back({Severity::warning,
                         tr("Another program has changed the project's file"),
                         {},
-                        ProblemFix{tr("Reload"), "file.reload"}});
+                        ProblemFix{tr("Reload"), RunAction{"file.reload"}}});
   if (facts.lost) problems.push_back({Severity::error, *facts.lost});
   if (facts.diskShort)
     problems.push_back(
@@ -245,8 +256,8 @@ std::vector<Problem> findProblems(const ProblemFacts& facts) {
                         {.look = PlanLook::coverage}});
   std::ranges::stable_sort(problems, std::greater(), &Problem::severity);
   // Nothing else can be judged at a wrong scale.
-  std::ranges::stable_partition(problems,
-                                [](const Problem& p) { return p.fix && p.fix->metresPerUnit.has_value(); });
+  std::ranges::stable_partition(
+      problems, [](const Problem& p) { return p.fix && std::holds_alternative<ScaleModel>(p.fix->way); });
   return problems;
 }
 

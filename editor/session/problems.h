@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "editor/session/capture_status.h"
@@ -61,14 +62,31 @@ struct ProblemPlace {
   bool operator==(const ProblemPlace&) const = default;
 };
 
-/// A way out: an action of the table, or a move in plan.
+/// Ways out.
+struct RunAction {
+  std::string id;  ///< of the table
+  bool operator==(const RunAction&) const = default;
+};
+struct MoveFreeApv {
+  int number = 0;
+  glm::dvec2 by{0};  ///< metres
+  bool operator==(const MoveFreeApv&) const = default;
+};
+struct AddPanorama {
+  glm::dvec2 place{0};  ///< metres
+  bool operator==(const AddPanorama&) const = default;
+};
+struct RemoveCell {
+  CellId cell;
+  bool operator==(const RemoveCell&) const = default;
+};
+struct ScaleModel {
+  double metresPerUnit = 1;  ///< the layout is scaled along
+  bool operator==(const ScaleModel&) const = default;
+};
 struct ProblemFix {
   std::string label;
-  std::string action = {};          ///< id; empty: `push` is it
-  glm::dvec2 push{0};               ///< metres
-  std::optional<int> freeApv = {};  ///< that is moved; nothing: the lattice is
-  /// The model's scale instead of a move; the layout is scaled along.
-  std::optional<double> metresPerUnit = {};
+  std::variant<RunAction, MoveFreeApv, AddPanorama, RemoveCell, ScaleModel> way;
   bool operator==(const ProblemFix&) const = default;
 };
 

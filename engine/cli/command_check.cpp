@@ -24,6 +24,7 @@ Json toJson(const PlacementFinding& finding, const Layout& layout) {
   else
     json["cameras"] = finding.cameras;
   if (finding.push) json["push"] = pointJson(*finding.push);
+  if (finding.panorama) json["panorama"] = pointJson(*finding.panorama);
   if (finding.suffices) json["suffices"] = true;
   return json;
 }
@@ -37,6 +38,9 @@ std::string textOf(const PlacementFinding& finding, const Layout& layout) {
   if (finding.push)
     text += fmt::format("; {:.2f} m towards {:.0f} degrees clears it", glm::length(*finding.push),
                         degrees(wrapAngle(std::atan2(finding.push->y, finding.push->x))));
+  if (finding.panorama)
+    text += fmt::format("; a panorama at ({:.2f}, {:.2f}) m would help", finding.panorama->x,
+                        finding.panorama->y);
   if (finding.suffices) text += "; it shows what its cells need all the same";
   return text + "\n";
 }

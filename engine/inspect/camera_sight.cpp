@@ -1,25 +1,28 @@
 #include "engine/inspect/camera_sight.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "engine/inspect/capture_reach.h"
 
 namespace acentric {
 namespace {
 
 constexpr int kAround = 32;                            // directions in plan
 constexpr std::array kSlopes{0.0, -0.35, 0.35};        // up per metre ahead
-constexpr double kHiddenShare = 0.25;                  // from which it is too much
+constexpr double kHiddenShare = 0.1;                   // from which it is too much
 constexpr double kNearby = 0.01, kNearbyOfWay = 1e-3;  // metres, and share: a surface hides not itself
 
-/// Is a point hidden from a camera for which it is captured in this role?
-bool isHidden(const glm::dvec3& point, const LayoutCamera& camera, const ConvexPolygon& grown, double eyeZ,
+/// Is a point hidden from a camera of the region whose grown polygon this is?
+bool isHidden(const glm::dvec3& point, const glm::dvec2& camera, const ConvexPolygon& grown, double eyeZ,
               const SurfaceProbe& probe) {
-  const glm::dvec3 centre(camera.position, eyeZ);
-  const double inPlan = glm::distance(glm::dvec2(point), camera.position);
+  const glm::dvec3 centre(camera, eyeZ);
+  const double inPlan = glm::distance(glm::dvec2(point), camera);
   if (!(inPlan > 0)) return false;
   const glm::dvec3 way = point - centre;
   const double length = glm::length(way);
-  const auto span = grown.raySpan(camera.position, glm::dvec2(way) / inPlan);
+  const auto span = grown.raySpan(camera, glm::dvec2(way) / inPlan);
   const double begin = (span ? span->second : 0) / inPlan * length;
   const double left = length - begin;
   return left > 0 && probe(centre + way / length * begin, way / length).distance <
@@ -35,6 +38,7 @@ std::map<int, CameraSight> lookFrom(const std::vector<glm::dvec2>& places, const
   std::map<int, CameraSight> sights;
   for (const Cover& cover : region.covers)
     for (const Piece& piece : cover.pieces) sights[piece.camera].places += static_cast<int>(places.size());
+  const std::vector<Cover> drawn = drawnCovers(layout, static_cast<int>(&region - layout.regions.data()));
   const double far = double(glm::length(bounds.size())) + 1;  // where the sky is
   for (const glm::dvec2& place : places)
     for (const double slope : kSlopes)
@@ -45,13 +49,13 @@ std::map<int, CameraSight> lookFrom(const std::vector<glm::dvec2>& places, const
         const SurfaceHit hit = probe(eye, direction);
         const glm::dvec3 point = eye + (hit.found() ? hit.distance : far) * direction;
         if (region.grown.containsClosed(glm::dvec2(point))) continue;  // local geometry
+        const bool missed = std::ranges::all_of(drawn, [&](const Cover& cover) {
+          const Piece* piece = pieceAt(cover, glm::dvec2(point));
+          return piece == nullptr || isHidden(point, piece->apex, region.grown, layout.eyeZ(), probe);
+        });
         for (const Cover& cover : region.covers)
-          for (const Piece& piece : cover.pieces) {
-            if (!piece.holds(glm::dvec2(point))) continue;
-            const LayoutCamera& camera = layout.cameras[std::size_t(piece.camera)];
-            sights[piece.camera].add(
-                {0, 1, isHidden(point, camera, region.grown, layout.eyeZ(), probe) ? 1 : 0});
-          }
+          if (const Piece* piece = pieceAt(cover, glm::dvec2(point)))
+            sights[piece->camera].add({0, 1, missed ? 1 : 0});
       }
   return sights;
 }

@@ -13,7 +13,8 @@
 namespace acentric {
 
 /// Of points seen from places in regions, those that a camera is to show, and of these the ones that
-/// something hides from it. As in a bake, what lies within the grown region hides nothing.
+/// something hides from it and from all others that are drawn there: of the region's other cover, and
+/// panoramas. As in a bake, what lies within the grown region hides nothing.
 struct CameraSight {
   int places = 0;  ///< looked from
   int shown = 0, hidden = 0;
@@ -22,8 +23,8 @@ struct CameraSight {
   bool suffices() const;
 };
 
-/// Looks around from places in one region, level and half up and down: what its cameras (into
-/// Layout::cameras) show.
+/// Looks around from places in one region, an element of layout.regions, level and half up and down: what its
+/// cameras (into Layout::cameras) show.
 std::map<int, CameraSight> lookFrom(const std::vector<glm::dvec2>& places, const Layout& layout,
                                     const Region& region, const Bounds& bounds, const SurfaceProbe& probe);
 

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <numeric>
 
 #include "engine/inspect/camera_sight.h"
@@ -97,6 +96,17 @@ class Checker {
                     places.size(), rules_.floorTolerance, layout_.spec.eyeHeight + kHeadAboveEye,
                     rules_.wallClearance),
         {}};
+  }
+
+  /// Where a panorama in the region would stand free: as near to its middle as can be.
+  std::optional<glm::dvec2> placeForPanorama(const Region& region) const {
+    std::vector<glm::dvec2> places = placesIn(region);
+    std::ranges::stable_sort(places, {}, [middle = places.front()](const glm::dvec2& place) {
+      return glm::distance(place, middle);
+    });
+    const auto found = std::ranges::find_if(
+        places, [&](const glm::dvec2& place) { return isClear(place) && canStandAt(place, region); });
+    return found == places.end() ? std::nullopt : std::optional(*found);
   }
 
   /// What the region's cameras show of what is seen where one can stand in it.
@@ -216,9 +226,10 @@ std::vector<bool> findInside(const std::vector<CameraCentre>& centres,
   return inside;
 }
 
-/// A camera from which nothing is hidden that it is to show is none to mend, wherever it stands.
-void excuseWhatSuffices(PlacementReport& report, const Layout& layout, const Checker& checker,
-                        TaskRunner& runner, const std::stop_token& stop) {
+/// A camera from which hardly anything is hidden that it is to show is none to mend, wherever it stands; of
+/// others it says where a panorama would help.
+void judgeBySight(PlacementReport& report, const Layout& layout, const Checker& checker, TaskRunner& runner,
+                  const std::stop_token& stop) {
   std::vector<bool> asked(layout.cameras.size(), false);
   for (const PlacementFinding& finding : report.findings)
     for (const int camera : finding.cameras)
@@ -230,21 +241,33 @@ void excuseWhatSuffices(PlacementReport& report, const Layout& layout, const Che
                                      [&](const Piece& p) { return asked[std::size_t(p.camera)]; });
         }))
       regions.push_back(r);
-  std::vector<CameraSight> sights(layout.cameras.size());
-  std::mutex adding;
+  std::vector<std::map<int, CameraSight>> sights(regions.size());
   runner.parallelFor(regions.size(), [&](std::size_t k) {
-    if (stop.stop_requested()) return;
-    const std::map<int, CameraSight> here = checker.lookFrom(layout.regions[regions[k]]);
-    const std::scoped_lock lock(adding);
-    for (const auto& [camera, sight] : here) sights[std::size_t(camera)].add(sight);
+    if (!stop.stop_requested()) sights[k] = checker.lookFrom(layout.regions[regions[k]]);
   });
+  std::vector<CameraSight> ofCamera(layout.cameras.size());
+  std::vector<std::pair<int, std::size_t>> hidden(layout.cameras.size());  // most from one region, and which
+  for (std::size_t k = 0; k < regions.size(); ++k)
+    for (const auto& [camera, sight] : sights[k]) {
+      ofCamera[std::size_t(camera)].add(sight);
+      hidden[std::size_t(camera)] = std::max(hidden[std::size_t(camera)], {sight.hidden, regions[k]});
+    }
   for (PlacementFinding& finding : report.findings) {
+    if (finding.severity == Severity::note || finding.cameras.empty()) continue;
     CameraSight sight;
-    for (const int camera : finding.cameras) sight.add(sights[std::size_t(camera)]);
-    if (finding.severity == Severity::note || !sight.suffices()) continue;
-    finding.severity = Severity::note;
-    finding.suffices = true;
-    finding.push.reset();
+    std::pair<int, std::size_t> most;
+    for (const int camera : finding.cameras) {
+      sight.add(ofCamera[std::size_t(camera)]);
+      most = std::max(most, hidden[std::size_t(camera)]);
+    }
+    if (sight.suffices()) {
+      finding.severity = Severity::note;
+      finding.suffices = true;
+      finding.push.reset();
+    } else if (const Region& region = layout.regions[most.second];
+               most.first > 0 && region.id.slot != kFreeSlot) {
+      finding.panorama = checker.placeForPanorama(region);
+    }
   }
 }
 
@@ -337,7 +360,7 @@ Result<PlacementReport> checkPlacement(const Layout& layout, const Bounds& bound
   if (stop.stop_requested())
     return fail(ErrorKind::cancelled, "the placement check was stopped", "placement");
   for (auto& some : found) std::ranges::move(some, std::back_inserter(report.findings));
-  excuseWhatSuffices(report, layout, checker, runner, stop);
+  judgeBySight(report, layout, checker, runner, stop);
   std::ranges::stable_sort(report.findings, [](const PlacementFinding& a, const PlacementFinding& b) {
     return a.severity != b.severity ? a.severity > b.severity : a.flaw < b.flaw;
   });

@@ -46,6 +46,9 @@ struct PlacementFinding {
   /// Where the centre would stand free, by the smallest move found; nothing if none within mostPush, or none
   /// is needed (notes).
   std::optional<glm::dvec2> push;  ///< metres to move by in plan
+  /// Of cameras of the lattice, no note: where a panorama would stand free in the region that they show least
+  /// of; nothing if nowhere in it.
+  std::optional<glm::dvec2> panorama = {};
   /// A note for this alone: hardly anything of what is seen from the regions is hidden from the cameras that
   /// are to show it (camera_sight.h).
   bool suffices = false;

@@ -59,6 +59,11 @@ Problem only(const ProblemFacts& facts) {
   for (const Problem& problem : problems) SCOPED_TRACE(problem.text);
   return problems.empty() ? Problem{} : problems.front();
 }
+/// The action that the fix runs; empty if it is none.
+std::string actionOf(const std::optional<ProblemFix>& fix) {
+  const auto* run = fix ? std::get_if<RunAction>(&fix->way) : nullptr;
+  return run != nullptr ? run->id : "";
+}
 bool says(const Problem& problem, const char* text) { return problem.text.find(text) != std::string::npos; }
 
 TEST(Problems, ASoundProjectHasNone) {
@@ -81,7 +86,7 @@ TEST(Problems, RegionsOverTheBudgetAreShownAndCanBeSplitOrFitted) {
     EXPECT_EQ(problem.place.look, PlanLook::triangles);
     EXPECT_EQ(problem.place.section, "Triangle budget");
     ASSERT_TRUE(problem.fix.has_value());
-    EXPECT_EQ(problem.fix->action, action);
+    EXPECT_EQ(actionOf(problem.fix), action);
     change(facts.built, [](OpenProject& open) { open.project.budget.simplify = true; });
     EXPECT_EQ(only(facts).severity, Severity::note) << "it is seen to";
   }
@@ -107,7 +112,7 @@ TEST(Problems, AScaleInDoubtIsAskedAboutOnceAndChangedWithTheLayout) {
   ASSERT_EQ(findProblems(more).size(), 2U);
   EXPECT_EQ(findProblems(more).front().fix, problem.fix) << "before what may come of it";
   const Project& project = facts.built->project;
-  const Edit edit = changeScale(project, *facts.built->scene, *problem.fix);
+  const Edit edit = editOf(*problem.fix, project, *facts.built->scene).value();
   EXPECT_EQ(edit.project.import.metresPerUnit, 0.15);
   EXPECT_NEAR(edit.project.layout().outline.area(), 0.15 * 0.15 * project.layout().outline.area(), 1e-9);
   change(facts.built, [](OpenProject& open) { open.project.import.metresPerUnit = 1; });
@@ -132,7 +137,7 @@ TEST(Problems, ManyOfAKindAreSummedUp) {
       says(problems.back(), std::to_string(facts.built->layout->regions.size() - kMostOfAKind).c_str()));
 }
 
-TEST(Problems, APlacementWarningIsPushedOut) {
+TEST(Problems, ABadlyPlacedCameraIsHelpedByAPanoramaARoomlessCellRemovedAFreePanoramaMoved) {
   ProblemFacts facts = sound();
   const Layout& layout = *facts.built->layout;
   const auto regionUses = [](const Region& region, int camera) {
@@ -153,10 +158,24 @@ TEST(Problems, APlacementWarningIsPushedOut) {
   const auto shown = layout.findRegion(*problem.place.cells.begin());
   ASSERT_TRUE(shown.has_value());
   EXPECT_TRUE(regionUses(layout.regions[std::size_t(*shown)], camera)) << "the cell shown uses the camera";
+  const Project& project = facts.built->project;
   ASSERT_TRUE(problem.fix.has_value());
-  const Edit shifted = pushOut(facts.built->project, *problem.fix);
-  EXPECT_EQ(shifted.project.layout().latticeOrigin,
-            facts.built->project.layout().latticeOrigin + glm::dvec2(0.3, 0));
+  EXPECT_EQ(problem.fix->label, "Fit cells") << "a push of the whole lattice would crowd other cameras";
+  finding.panorama = {{1.5, 0.5}};
+  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {finding}; });
+  problem = only(facts);
+  ASSERT_TRUE(problem.fix.has_value());
+  const Edit added = editOf(*problem.fix, project, *facts.built->scene).value();
+  EXPECT_EQ(added.project.layout().freeApvs.size(), project.layout().freeApvs.size() + 1);
+  EXPECT_EQ(added.project.layout().freeApvs.rbegin()->second.centre, glm::dvec2(1.5, 0.5));
+  EXPECT_TRUE(added.project.layout().freeApvs.rbegin()->second.traditional());
+
+  PlacementFinding none{PlacementFlaw::noStandingRoom, Severity::warning, {}, *shown, {1, 1}, "no room", {}};
+  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {none}; });
+  problem = only(facts);
+  ASSERT_TRUE(problem.fix.has_value());
+  const Edit removed = editOf(*problem.fix, project, *facts.built->scene).value();
+  EXPECT_FALSE(buildLayout(removed.project.layout())->findRegion(layout.regions[std::size_t(*shown)].id));
 
   const auto panorama =
       std::ranges::find_if(layout.regions, [](const Region& r) { return r.id.slot == kFreeSlot; });
@@ -165,7 +184,7 @@ TEST(Problems, APlacementWarningIsPushedOut) {
   change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {finding}; });
   problem = only(facts);
   ASSERT_TRUE(problem.fix.has_value());
-  const Edit moved = pushOut(facts.built->project, *problem.fix);
+  const Edit moved = editOf(*problem.fix, project, *facts.built->scene).value();
   EXPECT_EQ(moved.project.layout().freeApvs.at(3).centre, glm::dvec2(0.6, 0.2));
   EXPECT_EQ(moved.project.layout().latticeOrigin, facts.built->project.layout().latticeOrigin);
 }
@@ -178,7 +197,7 @@ TEST(Problems, OfOneCameraOnlyTheWorstIsTold) {
   const Problem problem = only(facts);
   EXPECT_TRUE(says(problem, "a camera: inside")) << problem.text;
   ASSERT_TRUE(problem.fix.has_value()) << "no push clears it, another lattice may";
-  EXPECT_EQ(problem.fix->action, "layout.fit");
+  EXPECT_EQ(actionOf(problem.fix), "layout.fit");
 }
 
 TEST(Problems, CamerasThatShowWhatTheirCellsNeedAreNone) {
@@ -215,7 +234,7 @@ TEST(Problems, CapturesAreMissingStaleOrFailed) {
   const int all = facts.captures->baked;
   change(facts.captures, [](CaptureStatus& captures) { captures.baked -= 3; });
   EXPECT_TRUE(says(only(facts), "3 captures are not baked yet"));
-  EXPECT_EQ(only(facts).fix->action, "bake.start");
+  EXPECT_EQ(actionOf(only(facts).fix), "bake.start");
   change(facts.captures,
          [](CaptureStatus& captures) { captures.stale[0] = captures.stale[1] = captures.stale[2] = true; });
   EXPECT_TRUE(says(only(facts), "3 captures are out of date"));
@@ -234,9 +253,9 @@ TEST(Problems, CapturesAreMissingStaleOrFailed) {
 TEST(Problems, TheModelChangedOrMissingOrWithoutTextures) {
   ProblemFacts facts = sound();
   facts.scene = {SceneFiles::State::changed, {"/m/hall.glb"}};
-  EXPECT_EQ(only(facts).fix->action, "file.reimport");
+  EXPECT_EQ(actionOf(only(facts).fix), "file.reimport");
   facts.scene = {SceneFiles::State::missing, {}, true};
-  EXPECT_EQ(only(facts).fix->action, "file.locate");
+  EXPECT_EQ(actionOf(only(facts).fix), "file.locate");
   EXPECT_EQ(only(facts).severity, Severity::error);
   EXPECT_TRUE(says(only(facts), "hall.glb"));
   facts.scene = {};

@@ -179,18 +179,46 @@ TEST(PlacementChecks, NoteACameraBeyondAWallThatNobodySeesPast) {
   }
 }
 
-TEST(PlacementChecks, WarnOfACameraFromWhichAWallHidesWhatIsSeenThroughADoor) {
+/// A block 3 m thick parts two rooms, with a door 1.4 m wide along y = 3 through it.
+BoxWorld roomsWithADoor() {
   BoxWorld rooms = BoxWorld::room(16, 6, 3);
-  // A block 3 m thick parts the rooms, with a door 1.4 m wide along y = 3 through it.
   rooms.boxes.push_back({{6, 0, 0}, {9, 2.3, 3}});
   rooms.boxes.push_back({{6, 3.7, 0}, {9, 6, 3}});
-  LayoutSpec spec = squares({4.8, 3}, 4);  // corners at (6.8, 1) and (6.8, 5), within the block
+  return rooms;
+}
+
+/// One square before the door, corners at (6.8, 1) and (6.8, 5) within the block.
+LayoutSpec squareBeforeTheDoor() {
+  LayoutSpec spec = squares({4.8, 3}, 4);
+  spec.configuration = Configuration::d;  // cameras look one way from each corner
+  spec.outline.loops = {{{2.9, 1.1}, {6.7, 1.1}, {6.7, 4.9}, {2.9, 4.9}}};
   spec.nearBand = 0.25;
-  const PlacementReport report = check(rooms, buildLayout(spec).value());
-  const auto inBlock = at(report, {6.8, 1});
-  ASSERT_FALSE(inBlock.empty());
-  EXPECT_EQ(inBlock[0].severity, Severity::error) << inBlock[0].reason;
-  EXPECT_FALSE(inBlock[0].suffices);
+  return spec;
+}
+
+Severity worstAt(const PlacementReport& report, const glm::dvec2& place) {
+  Severity worst = Severity::note;
+  for (const PlacementFinding& finding : at(report, place)) worst = std::max(worst, finding.severity);
+  return worst;
+}
+
+TEST(PlacementChecks, WarnOfCamerasFromWhichAWallHidesWhatIsSeenThroughADoor) {
+  const PlacementReport report = check(roomsWithADoor(), buildLayout(squareBeforeTheDoor()).value());
+  ASSERT_FALSE(at(report, {6.8, 1}).empty());
+  EXPECT_EQ(std::max(worstAt(report, {6.8, 1}), worstAt(report, {6.8, 5})), Severity::error);
+  for (const PlacementFinding& finding : report.findings)
+    if (finding.severity == Severity::error) {
+      EXPECT_EQ(finding.panorama, glm::dvec2(4.8, 3)) << "the middle is free";
+    }
+}
+
+TEST(PlacementChecks, NoteACameraWhereAPanoramaShowsWhatItMisses) {
+  LayoutSpec helped = squareBeforeTheDoor();
+  helped.freeApvs[0] = Apv{{4.8, 3}, {0, 0}};
+  const PlacementReport report = check(roomsWithADoor(), buildLayout(helped).value());
+  ASSERT_FALSE(at(report, {6.8, 1}).empty());
+  EXPECT_EQ(worstAt(report, {6.8, 1}), Severity::note);
+  EXPECT_EQ(worstAt(report, {6.8, 5}), Severity::note);
 }
 
 TEST(PlacementChecks, DoNotDependOnTheNumberOfThreads) {
