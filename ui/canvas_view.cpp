@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace acentric::ui {
 
 void CanvasView::setArea(const glm::dvec2& min, const glm::dvec2& size) {
   areaMin_ = min;
-  areaSize_ = glm::max(size, glm::dvec2(1));
+  const glm::dvec2 before = std::exchange(areaSize_, glm::max(size, glm::dvec2(1)));
+  if (fitted_ && areaSize_ != before) fit(fitted_->low, fitted_->high, fitted_->margin);
 }
 
 glm::dvec2 CanvasView::screenFromWorld(const glm::dvec2& world) const {
@@ -26,17 +28,20 @@ bool CanvasView::contains(const glm::dvec2& screen) const {
 }
 
 void CanvasView::panPixels(const glm::dvec2& delta) {
+  if (delta != glm::dvec2(0)) fitted_.reset();
   centre_ -= glm::dvec2(delta.x, -delta.y) / pixelsPerMetre_;
 }
 
 void CanvasView::zoomAt(const glm::dvec2& screen, double factor) {
   if (!(factor > 0) || !std::isfinite(factor)) return;
+  fitted_.reset();
   const glm::dvec2 held = worldFromScreen(screen);
   pixelsPerMetre_ = std::clamp(pixelsPerMetre_ * factor, kMinPixelsPerMetre, kMaxPixelsPerMetre);
   centre_ += held - worldFromScreen(screen);
 }
 
 void CanvasView::fit(const glm::dvec2& worldMin, const glm::dvec2& worldMax, double margin) {
+  fitted_ = {worldMin, worldMax, margin};
   const glm::dvec2 extent = glm::max(worldMax - worldMin, glm::dvec2(1e-3));
   centre_ = 0.5 * (worldMin + worldMax);
   const glm::dvec2 scale = areaSize_ * (1 - 2 * margin) / extent;

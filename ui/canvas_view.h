@@ -2,6 +2,7 @@
 /// The transform of a pannable, zoomable plan: world metres (x right, y up) to window pixels (y down). Pure.
 
 #include <glm/glm.hpp>
+#include <optional>
 
 namespace acentric::ui {
 
@@ -10,7 +11,8 @@ class CanvasView {
   static constexpr double kMinPixelsPerMetre = 1e-3;
   static constexpr double kMaxPixelsPerMetre = 2e4;
 
-  /// The rectangle on the window, pixels.
+  /// The rectangle on the window, pixels. What was fitted into it stays so while it changes its size, until
+  /// it is panned or zoomed.
   void setArea(const glm::dvec2& min, const glm::dvec2& size);
 
   glm::dvec2 screenFromWorld(const glm::dvec2& world) const;
@@ -28,6 +30,11 @@ class CanvasView {
   void fit(const glm::dvec2& worldMin, const glm::dvec2& worldMax, double margin = 0.06);
 
  private:
+  struct Fitted {
+    glm::dvec2 low{0}, high{0};
+    double margin = 0;
+  };
+  std::optional<Fitted> fitted_;
   glm::dvec2 areaMin_{0};
   glm::dvec2 areaSize_{1, 1};
   glm::dvec2 centre_{0};

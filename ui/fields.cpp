@@ -1,9 +1,13 @@
 #include "ui/fields.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "ui/colour.h"
 #include "ui/text_format.h"
@@ -53,6 +57,32 @@ FieldEdit numberField(const NumberField& field, int& value, float labelWidth) {
   const bool changed = touched && edited != value;
   if (changed) value = std::clamp(edited, least, most);
   return endField(changed, field.help);
+}
+
+void ReadyTextField::begin() {
+  ++number_;
+  focus_ = early_ = true;
+}
+
+bool ReadyTextField::draw(const char* hint, std::string& text) {
+  const std::string before = text;
+  if (early_)
+    for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
+      std::array<char, 5> utf8{};
+      if (letter >= ' ') text += ImTextCharToUtf8(utf8.data(), letter);
+    }
+  const auto toEnd = [](ImGuiInputTextCallbackData* field) {
+    field->ClearSelection();
+    field->CursorPos = field->BufTextLen;
+    return 0;
+  };
+  ImGui::PushID(number_);
+  if (std::exchange(focus_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputTextWithHint("##text", hint, &text, early_ ? ImGuiInputTextFlags_CallbackAlways : 0, toEnd);
+  ImGui::PopID();
+  early_ = early_ && !ImGui::IsItemActive();
+  return text != before;
 }
 
 FieldEdit checkField(const char* label, bool& value, float labelWidth, const char* help) {

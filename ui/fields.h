@@ -27,6 +27,21 @@ FieldEdit numberField(const NumberField& field, double& value, float labelWidth)
 FieldEdit numberField(const NumberField& field, int& value, float labelWidth);
 FieldEdit checkField(const char* label, bool& value, float labelWidth, const char* help = "");
 
+/// A text field that has the keyboard from the frame on that it is shown in. (ImGui's own takes text from its
+/// third frame on: what is typed before is put into it, and the caret behind.)
+class ReadyTextField {
+ public:
+  /// It is about to be shown, or is to have the keyboard again, with the text it has now.
+  void begin();
+  /// True if the text changed.
+  bool draw(const char* hint, std::string& text);
+
+ private:
+  int number_ = 0;  ///< of begin(): ImGui keeps the text of a field that it knows
+  bool focus_ = false;
+  bool early_ = false;  ///< the field doesn't take text yet
+};
+
 struct Choice {
   std::string label;
   std::string help;

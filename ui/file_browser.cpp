@@ -16,13 +16,23 @@
 
 namespace acentric::ui {
 namespace fs = std::filesystem;
+namespace {
+
+bool isPath(const std::string& typed) { return typed.starts_with('/') || typed.starts_with("~/"); }
+
+/// With the home folder for a ~ at the beginning.
+fs::path fromHome(const std::string& typed) {
+  const char* home = std::getenv("HOME");
+  return typed.starts_with("~/") && home != nullptr ? fs::path(home) / typed.substr(2) : fs::path(typed);
+}
+
+}  // namespace
 
 void FileBrowser::open(const FileRequest& request, Chosen chosen) {
   request_ = request;
   chosen_ = std::move(chosen);
   open_ = true;
   opening_ = true;
-  focusName_ = true;
   name_ = request.saving ? request.name : "";
   question_.clear();
   std::error_code error;
@@ -30,19 +40,35 @@ void FileBrowser::open(const FileRequest& request, Chosen chosen) {
   enter(start.empty() ? fs::path("/") : start);
 }
 
-void FileBrowser::enter(const fs::path& folder) {
+void FileBrowser::list(const fs::path& folder) {
   std::error_code error;
   const fs::path absolute = fs::weakly_canonical(fs::absolute(folder, error), error);
   folder_ = absolute.empty() ? folder : absolute;
   listing_ = listDirectory(folder_, request_.endings);
   selected_ = -1;
   question_.clear();
-  if (!request_.saving) name_.clear();
+}
+
+void FileBrowser::enter(const fs::path& folder) {
+  list(folder);
+  if (!request_.saving || isPath(name_)) name_ = request_.saving ? request_.name : "";
+  nameField_.begin();
+}
+
+/// Lists the folder of a path that is being typed, once there is one.
+void FileBrowser::followTyped() {
+  selected_ = -1;
+  question_.clear();
+  if (!isPath(name_)) return;
+  std::error_code error;
+  const fs::path typed = fromHome(name_).parent_path();
+  if (typed != folder_ && fs::is_directory(typed, error)) list(typed);
 }
 
 std::vector<std::size_t> FileBrowser::shownEntries() const {
   std::vector<std::size_t> shown;
-  const std::string filter = request_.saving || name_.find('/') != std::string::npos ? "" : lowerCase(name_);
+  const std::string typed = isPath(name_) ? fromHome(name_).filename().string() : name_;
+  const std::string filter = request_.saving ? "" : lowerCase(typed);
   for (std::size_t i = 0; i < listing_.entries.size(); ++i)
     if (lowerCase(listing_.entries[i].name).find(filter) != std::string::npos) shown.push_back(i);
   return shown;
@@ -77,8 +103,9 @@ void FileBrowser::accept() {
   if (selected_ >= 0 && selected_ < int(shown.size()))
     return choose(folder_ / listing_.entries[shown[std::size_t(selected_)]].name, false);
   if (name_.empty()) return;
-  const fs::path typed(name_);
-  if (!request_.saving && !typed.is_absolute() && shown.size() == 1)
+  const fs::path typed = fromHome(name_);
+  std::error_code error;
+  if (!request_.saving && shown.size() == 1 && !fs::exists(folder_ / typed, error))
     return choose(folder_ / listing_.entries[shown.front()].name, false);
   choose(typed.is_absolute() ? typed : folder_ / typed, false);
 }
@@ -174,15 +201,7 @@ void FileBrowser::drawFooter(UiLog& log) {
   ImGui::AlignTextToFramePadding();
   mutedText(request_.saving ? tr("Name") : tr("Find"));
   ImGui::SameLine();
-  if (focusName_) {
-    ImGui::SetKeyboardFocusHere();
-    focusName_ = false;
-  }
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputText("##name", &name_)) {
-    selected_ = -1;
-    question_.clear();
-  }
+  if (nameField_.draw("", name_)) followTyped();
   log.item("file.name");
   ImGui::AlignTextToFramePadding();
   if (question_.empty()) {

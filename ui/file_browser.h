@@ -1,7 +1,7 @@
 #pragma once
 /// The file dialog: opens or saves one file. Arrow keys walk the list, Enter opens, Backspace goes up, Escape
-/// cancels, and typing in the name field filters (open) or names the file (save); a whole path may be pasted
-/// there.
+/// cancels, and typing in the name field filters (open) or names the file (save). A path that begins with /
+/// or ~ may be typed or pasted there: the list follows it.
 
 #include <filesystem>
 #include <functional>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ui/directory_listing.h"
+#include "ui/fields.h"
 #include "ui/input_queue.h"
 #include "ui/ui_log.h"
 
@@ -36,6 +37,8 @@ class FileBrowser {
 
  private:
   void enter(const std::filesystem::path& folder);
+  void list(const std::filesystem::path& folder);
+  void followTyped();
   void choose(const std::filesystem::path& path, bool confirmed);
   void accept();
   void drawPlaces();
@@ -47,11 +50,11 @@ class FileBrowser {
   Chosen chosen_;
   bool open_ = false;
   bool opening_ = false;
-  bool focusName_ = false;
   bool scrollToSelection_ = false;
   std::filesystem::path folder_;
   DirectoryListing listing_;
   std::string name_;
+  ReadyTextField nameField_;
   std::string question_;  ///< "replace it?", else empty
   std::filesystem::path pending_;
   int selected_ = -1;  ///< into shownEntries()

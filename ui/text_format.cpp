@@ -11,7 +11,8 @@ namespace acentric::ui {
 
 std::string formatCount(std::uint64_t count) {
   std::string digits = fmt::format("{}", count);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
+  const std::string separator = trIn("thousands separator", ",");
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, separator);
   return digits;
 }
 

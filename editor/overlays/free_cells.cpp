@@ -46,7 +46,7 @@ void FreeCells::update(const std::shared_ptr<const Layout>& layout, const ui::Ca
   for (const LatticeCell& cell : cells_) polygons.push_back(&cell.polygon);
   setPolygons(mesh_, polygons);
   mesh_.setStyles(
-      std::vector<ui::PolygonStyle>(cells_.size(), {0, ui::palette::text.withOpacity(0.13F).packed(), 1}));
+      std::vector<ui::PolygonStyle>(cells_.size(), {0, ui::palette::text.withOpacity(0.08F).packed(), 1}));
 }
 
 void FreeCells::draw(ImDrawList& list, const ui::CanvasView& view) {

@@ -23,9 +23,9 @@ constexpr double kCamerasFrom = 6, kCamerasWhole = 16;
 ui::PolygonStyle bakeStyle(const Region& region, BakeState state) {
   const ui::Colour colour = colourOf(state);
   // Lighter and darker besides the hue: for eyes that miss it.
-  const float value = state == BakeState::baked ? 1 : state == BakeState::partial ? 0.7F : 0.45F;
+  const float value = state == BakeState::baked ? 1 : 0.8F;
   return {colour.withOpacity(value * (region.kind == RegionKind::ring ? 0.22F : 0.13F)).packed(),
-          colour.withOpacity(0.75F).packed(), 1.2F};
+          colour.withOpacity(0.9F).packed(), 1.5F};
 }
 
 ui::PolygonStyle triangleStyle(std::size_t count, std::size_t most, std::size_t budget) {

@@ -104,7 +104,13 @@ void drawPlan(const Session& session) {
                          ui::formatArea(storey.layout.outline.area()));
   if (!storey.walkable.empty())
     text += trf(" of {} that can be walked", ui::formatArea(storey.walkable.area()));
-  if (session.estimate() == nullptr) text += tr("; Estimate tells what baking them takes");
+  if (session.estimate() == nullptr) {
+    const BakeCost* cost = session.bakeCosts().of(session.project().bake);
+    text += cost == nullptr ? tr("; Estimate tells what baking them takes")
+                            : trf("; all of it takes about {} to bake, and {}",
+                                  ui::formatDuration(cost->forecast.seconds()),
+                                  ui::formatBytes(std::uint64_t(cost->forecast.bytes())));
+  }
   ui::mutedText(tr("Plan"));
   ImGui::SameLine(ui::scaled(kValueX));
   ui::wrappedText(ui::palette::text, text);

@@ -111,9 +111,8 @@ bool drawRow(PanelContext& context, const Row& row) {
   } else {
     ui::mutedText(session.bakeCosts().predicting() ? tr("predicting…") : tr("not yet predicted"));
     ui::tooltip(
-        tr("Predicted in the background by baking a little, while no bake runs: once for a project as it is "
-           "opened, "
-           "after changes when these are pointed at"));
+        tr("Predicted in the background by baking a little, some seconds after the last change, while no "
+           "bake runs"));
   }
   ImGui::SameLine(std::max(ui::scaled(kAccuracy) + moreForNames(),
                            ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("00.0 dB").x));
@@ -182,10 +181,7 @@ void drawBakePresets(PanelContext& context) {
   bool measured = true;
   for (const Row& row : rows) measured = drawRow(context, row) && measured;
   const ImVec2 high(low.x + ImGui::GetContentRegionAvail().x, ImGui::GetCursorScreenPos().y);
-  const bool pointedAt = !context.inputBlocked && ImGui::IsMouseHoveringRect(low, high);
-  session.lookAtBakeCosts(pointedAt                         ? CostLook::pointedAt
-                          : ImGui::IsRectVisible(low, high) ? CostLook::shown
-                                                            : CostLook::away);
+  session.showBakeCosts(ImGui::IsRectVisible(low, high));
   if (!measured)
     ui::wrappedText(ui::palette::faint, tr("– dB: not yet measured; the tab Accuracy (F6) measures it."));
   if (!session.bakeCosts().trouble().empty())

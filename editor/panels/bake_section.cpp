@@ -103,8 +103,7 @@ void drawAdvancedBake(PanelContext& context) {
 }  // namespace
 
 void drawBakeSection(PanelContext& context) {
-  if (!askedSection(context, trLater("Bake quality")))
-    return context.session().lookAtBakeCosts(CostLook::away);
+  if (!askedSection(context, trLater("Bake quality"))) return context.session().showBakeCosts(false);
   drawBakePresets(context);
   bakeNumber(context, "samplesPerDegree",
              {tr("Samples per degree"), "%.1f /°", 0.05, 0.5, 64,

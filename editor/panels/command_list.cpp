@@ -1,10 +1,6 @@
 #include "editor/panels/command_list.h"
 
-#include <imgui_internal.h>
-#include <imgui_stdlib.h>
-
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "editor/actions/action_search.h"
@@ -62,29 +58,14 @@ void CommandList::begin() {
   query_.clear();
   selected_ = steps_ = 0;
   enter_ = escape_ = false;
-  shown_ = early_ = true;
+  shown_ = true;
+  field_.begin();
   ImGui::OpenPopup(kPopup);
 }
 
-/// True if what is sought changed. ImGui's field takes text from its third frame on: what is typed before is
-/// put into it, and the caret behind.
+/// True if what is sought changed.
 bool CommandList::drawField(const char* hint, ui::UiLog& log) {
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  const std::string before = query_;
-  if (early_)
-    for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
-      std::array<char, 5> utf8{};
-      if (letter >= ' ') query_ += ImTextCharToUtf8(utf8.data(), letter);
-    }
-  const auto toEnd = [](ImGuiInputTextCallbackData* text) {
-    text->ClearSelection();
-    text->CursorPos = text->BufTextLen;
-    return 0;
-  };
-  ImGui::SetNextItemWidth(-1);
-  ImGui::InputTextWithHint("##query", hint, &query_, early_ ? ImGuiInputTextFlags_CallbackAlways : 0, toEnd);
-  const bool changed = query_ != before;
-  early_ = early_ && !ImGui::IsItemActive();
+  const bool changed = field_.draw(hint, query_);
   log.item("commands.query");
   ImGui::Dummy({0, ui::scaled(2)});
   return changed;

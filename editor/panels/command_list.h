@@ -4,6 +4,7 @@
 #include <string>
 
 #include "editor/panels/panel_context.h"
+#include "ui/fields.h"
 
 namespace acentric::editor {
 
@@ -27,7 +28,7 @@ class CommandList {
   bool enter_ = false, escape_ = false;
   bool shown_ = false;
   bool scroll_ = false;
-  bool early_ = false;  ///< the field doesn't take text yet
+  ui::ReadyTextField field_;
 };
 
 }  // namespace acentric::editor

@@ -99,6 +99,18 @@ void Dialogs::openFileDialogs(PanelContext& context) {
   }
 }
 
+/// A model that was opened straight away is asked about like a new project where its scale is in doubt.
+void Dialogs::askAboutScale(PanelContext& context) {
+  EditorState& state = context.state();
+  const Session& session = context.session();
+  const auto inspection = session.inspection();
+  if (!inspection || judged_ == session.generation() || state.dialog != Dialog::none) return;
+  judged_ = session.generation();
+  if (!session.untouched() || !inspection->scale || session.project().import.metresPerUnit != 0) return;
+  state.draft = {sceneFileOf(session.file(), session.project())};
+  state.dialog = Dialog::newProject;
+}
+
 void Dialogs::drawFailure(PanelContext& context) {
   if (!beginDialog(trLater("That did not work"), 560)) return;
   ui::wrappedText(ui::palette::text, failures_.front());
@@ -187,6 +199,7 @@ void Dialogs::drawAbout(PanelContext& context) {
 void Dialogs::draw(PanelContext& context) {
   giveClipboard(context);
   openFileDialogs(context);
+  askAboutScale(context);
   open_ = false;
   if (browser_.isOpen()) return browser_.draw(context.log);
   open_ = true;

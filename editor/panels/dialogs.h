@@ -22,6 +22,7 @@ class Dialogs {
 
  private:
   void openFileDialogs(PanelContext& context);
+  void askAboutScale(PanelContext& context);
   void drawFailure(PanelContext& context);
   void drawUnsavedChanges(PanelContext& context);
   void drawRecovery(PanelContext& context);
@@ -35,6 +36,7 @@ class Dialogs {
   bool enter_ = false;  // pressed this frame, while a dialog of ours is open
   bool escape_ = false;
   bool open_ = false;  // one of ours, last frame
+  int judged_ = -1;    // generation of the session whose scale was judged
 };
 
 }  // namespace acentric::editor

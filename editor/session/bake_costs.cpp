@@ -17,7 +17,8 @@
 namespace acentric::editor {
 namespace {
 
-constexpr double kStill = 1;             ///< seconds without a change
+constexpr double kStill = 4;             ///< seconds without a change
+constexpr double kStillOnceOpened = 1;   ///< seconds
 constexpr double kSizeTolerance = 0.03;  ///< of the bytes asked for
 constexpr double kFar = 0.1;
 constexpr std::size_t kMostKnown = 64;  ///< settings that are remembered
@@ -91,7 +92,7 @@ Result<SizeProposal> fitSize(const BakeCostRequest& request, double bytes, TaskR
 
 bool SizeProposal::far() const { return std::abs(cost.forecast.bytes() / askedBytes - 1) > kFar; }
 
-void BakeCosts::follow(const std::optional<BakeCostRequest>& project, CostLook look, double now) {
+void BakeCosts::follow(const std::optional<BakeCostRequest>& project, bool shown, double now) {
   still_ = project.has_value();
   if (!project) {
     if (predicting_.running()) predicting_.abandon();
@@ -99,22 +100,19 @@ void BakeCosts::follow(const std::optional<BakeCostRequest>& project, CostLook l
     return;
   }
   if (!request_ || !sameBasis(*request_, *project)) {
-    fresh_ = !request_ || request_->open->file != project->open->file;
-    wanted_ = false;
+    const bool opened = !request_ || request_->open->file != project->open->file;
     known_.clear();
     proposal_.reset();
     trouble_.clear();
     sizeTrouble_.clear();
     predicting_.abandon();
     sizing_.abandon();
-    beginAt_ = now + kStill;
+    beginAt_ = now + (opened ? kStillOnceOpened : kStill);
   } else if (request_->open->project.bake != project->open->project.bake) {
     beginAt_ = now + kStill;
   }
   request_ = project;
-  wanted_ = wanted_ || look == CostLook::pointedAt || (fresh_ && look == CostLook::shown);
-  if (wanted_ && look != CostLook::away && now >= beginAt_ && !predicting_.running() && !sizing_.running())
-    predictNext();
+  if (shown && now >= beginAt_ && !predicting_.running() && !sizing_.running()) predictNext();
 }
 
 const BakeCost* BakeCosts::of(const BakeSettings& bake) const {

@@ -25,9 +25,6 @@ struct BakeCostRequest {
   std::size_t memoryBytes = 0;
 };
 
-/// Does somebody want to know?
-enum class CostLook { away, shown, pointedAt };
-
 /// Of all storeys, whatever is on disk already.
 struct BakeCost {
   BakeForecast forecast;
@@ -48,8 +45,8 @@ class BakeCosts {
   explicit BakeCosts(Inbox& inbox) : predicting_(inbox), sizing_(inbox) {}
 
   /// The project, told often; nothing: it is being changed, or a bake runs. `now` in seconds. Work begins
-  /// once the project has kept still for a moment.
-  void follow(const std::optional<BakeCostRequest>& project, CostLook look, double now);
+  /// once the project has kept still for some seconds while costs are shown.
+  void follow(const std::optional<BakeCostRequest>& project, bool shown, double now);
   /// Null: not known (yet).
   const BakeCost* of(const BakeSettings& bake) const;
   bool predicting() const { return predicting_.running() && !predicting_.cancelling(); }
@@ -70,8 +67,6 @@ class BakeCosts {
 
   std::optional<BakeCostRequest> request_;  ///< the newest
   bool still_ = false;                      ///< it is the project as it is now
-  bool fresh_ = true;                       ///< as it was opened
-  bool wanted_ = false;                     ///< as it is now
   double beginAt_ = 0;
   std::vector<std::pair<BakeSettings, BakeCost>> known_;
   std::optional<SizeProposal> proposal_;

@@ -88,6 +88,8 @@ class Session {
   /// nothing is saved.
   const ShippedWalkPtr& shippedWalk() const { return shipped_; }
   bool untitled() const { return untitled_; }
+  /// A new project just as it was made of its model.
+  bool untouched() const { return untitled_ && recovered_.empty() && history_ && !history_->canUndo(); }
   bool dirty() const { return history_ && !shipped_ && history_->dirty(); }
   /// The project's file; for an untitled project, where it would be saved.
   const std::filesystem::path& file() const { return file_; }
@@ -218,7 +220,7 @@ class Session {
   /// What baking all of it takes, with each preset and as it is set.
   const BakeCosts& bakeCosts() const { return bakeCosts_; }
   /// Called each frame.
-  void lookAtBakeCosts(CostLook look) { costLook_ = look; }
+  void showBakeCosts(bool shown) { costsShown_ = shown; }
   /// The resolution at which the whole of it takes so many bytes: bakeCosts().proposal().
   void proposeSize(double bytes) { bakeCosts_.propose(bytes); }
   const std::optional<ProjectBakeReport>& lastBake() const { return lastBake_; }
@@ -459,7 +461,7 @@ class Session {
   std::optional<double> neededBytes_;
   double nextLookAtDisk_ = 0, now_ = 0;
   Gate bakeGate_;  // outlives the job
-  CostLook costLook_ = CostLook::away;
+  bool costsShown_ = false;
   std::optional<ProjectBakeReport> lastBake_;
   int bakedSeen_ = 0;
   double nextLoad_ = 0;

@@ -173,10 +173,10 @@ void Session::followBakeCosts() {
   const bool scene = sceneFiles_.state != SceneFiles::State::missing || sceneFiles_.fromCache;
   const bool still = built_ && !shipped_ && !rebuilding_.running() && scene && !opening_.running() &&
                      !baking_.running() && !estimating_.running() && !history_->previewing();
-  if (!still) return bakeCosts_.follow(std::nullopt, costLook_, now_);
+  if (!still) return bakeCosts_.follow(std::nullopt, false, now_);
   bakeCosts_.follow(BakeCostRequest{built_, options_.importHost, bakeThreads(),
                                     std::size_t(preferences_.bakeMegabytes) * 1'000'000},
-                    working() ? CostLook::away : costLook_, now_);  // what is waited for comes first
+                    costsShown_ && !working(), now_);  // what is waited for comes first
 }
 
 void Session::pauseBake(bool paused) {

@@ -60,6 +60,16 @@ TEST(CanvasView, PanMovesTheWorldWithThePointer) {
   EXPECT_NEAR(glm::length(view.screenFromWorld(held) - glm::dvec2(340, 175)), 0, 1e-9);
 }
 
+TEST(CanvasView, KeepsWhatWasFittedFittedUntilItIsMoved) {
+  CanvasView view = makeView();
+  view.fit({-2, -1}, {2, 1}, 0);
+  view.setArea({0, 0}, {400, 600});
+  EXPECT_DOUBLE_EQ(view.pixelsPerMetre(), 100);
+  view.panPixels({5, 0});
+  view.setArea({0, 0}, {200, 600});
+  EXPECT_DOUBLE_EQ(view.pixelsPerMetre(), 100);
+}
+
 TEST(CanvasView, FitsAPointWithoutDividingByZero) {
   CanvasView view = makeView();
   view.fit({2, 3}, {2, 3});
