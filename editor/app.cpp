@@ -211,8 +211,7 @@ void App::logNews(PanelContext& context) {
     loggedState_ = now;
   }
   if (const int finished = session_.bakeQueue().finished(); finished != loggedFinished_) {
-    log_.event("bakequeue",
-               fmt::format("finished {} of {}", finished, session_.bakeQueue().cameras().size()));
+    log_.event("bakequeue", fmt::format("finished {} of {}", finished, session_.bakeQueue().toBake()));
     loggedFinished_ = finished;
   }
   if (!ready_) {

@@ -26,7 +26,7 @@ void drawProgress(PanelContext& context) {
                        : queue.cameras().empty()     ? session.baking().label() + "…"
                        : session.bakePaused()        ? tr("paused")
                                                      : ui::formatPercent(queue.share());
-    if (!queue.cameras().empty()) text += trf("   {} of {}", queue.finished(), queue.cameras().size());
+    if (!queue.cameras().empty()) text += trf("   {} of {}", queue.finished(), queue.toBake());
     ui::progressBar(queue.cameras().empty() ? -1 : queue.share(), text, context.now);
   } else if (session.estimating().running()) {
     ui::progressBar(progressFraction(session.estimating()), progressText(session.estimating()), context.now);
@@ -104,7 +104,9 @@ void drawPlan(const Session& session) {
                          ui::formatArea(storey.layout.outline.area()));
   if (!storey.walkable.empty())
     text += trf(" of {} that can be walked", ui::formatArea(storey.walkable.area()));
-  if (session.estimate() == nullptr) {
+  const CaptureStatus* captures = session.captures().get();
+  const bool allBaked = captures != nullptr && captures->baked == int(captures->cameras.size());
+  if (session.estimate() == nullptr && !allBaked) {
     const BakeCost* cost = session.bakeCosts().of(session.project().bake);
     text += cost == nullptr ? tr("; Estimate tells what baking them takes")
                             : trf("; all of it takes about {} to bake, and {}",

@@ -9,9 +9,10 @@ void BakeQueue::begin(std::vector<QueuedCamera> cameras) {
   cameras_ = std::move(cameras);
   for (std::size_t row = 0; row < cameras_.size(); ++row) {
     rows_[{cameras_[row].storey, cameras_[row].camera}] = row;
-    pixels_ += cameras_[row].pixels;
+    ++counts_[std::size_t(cameras_[row].stage)];
+    if (cameras_[row].stage != CameraStage::reused) pixels_ += cameras_[row].pixels;
   }
-  counts_[std::size_t(CameraStage::waiting)] = int(cameras_.size());
+  reusedFirst_ = count(CameraStage::reused);
 }
 
 void BakeQueue::setStage(QueuedCamera& row, CameraStage stage) {
@@ -24,6 +25,7 @@ void BakeQueue::tell(double now, int storey, const CameraNews& news) {
   const auto found = rows_.find({storey, news.camera});
   if (found == rows_.end()) return;
   QueuedCamera& row = cameras_[found->second];
+  if (row.stage == CameraStage::reused) return;
   lastTold_ = now;
   const bool traced = news.stage == CameraStage::writing;
   if (news.stage == CameraStage::tracing) current_ = found->second;
@@ -64,7 +66,7 @@ void BakeQueue::end() {
 }
 
 int BakeQueue::finished() const {
-  return count(CameraStage::done) + count(CameraStage::reused) + count(CameraStage::failed);
+  return count(CameraStage::done) + count(CameraStage::reused) - reusedFirst_ + count(CameraStage::failed);
 }
 
 double BakeQueue::share() const {

@@ -29,7 +29,7 @@ struct QueuedCamera {
 
 class BakeQueue {
  public:
-  /// In baking order.
+  /// In baking order; those that are on disk already are `reused`.
   void begin(std::vector<QueuedCamera> cameras);
   void tell(double now, int storey, const CameraNews& news);
   /// Time that passes until the next news is no part of any rate.
@@ -40,9 +40,10 @@ class BakeQueue {
   const std::vector<QueuedCamera>& cameras() const { return cameras_; }
   int count(CameraStage stage) const { return counts_[std::size_t(stage)]; }
   int previewed() const { return previewed_; }
-  /// On disk, or given up.
+  /// Of those that were to be baked: how many there are, and how many are on disk, or given up.
+  int toBake() const { return int(cameras_.size()) - reusedFirst_; }
   int finished() const;
-  /// Of the pixels of all captures; previews do not count.
+  /// Of the pixels of all captures to be baked; previews do not count.
   double share() const;
   /// Of the last half minute.
   std::optional<double> raysPerSecond() const { return rays_.perSecond(); }
@@ -57,6 +58,7 @@ class BakeQueue {
   std::vector<QueuedCamera> cameras_;
   std::map<std::pair<int, int>, std::size_t> rows_;  ///< by storey and camera
   std::array<int, 6> counts_{};                      ///< by stage
+  int reusedFirst_ = 0;                              ///< of the list as it was begun
   int previewed_ = 0;
   double pixels_ = 0;                         ///< of all
   double donePixels_ = 0;                     ///< traced to the end, or reused

@@ -37,11 +37,13 @@ std::vector<QueuedCamera> queueOf(const StoreysToBake& plan) {
   std::vector<QueuedCamera> queue;
   for (std::size_t s = 0; s < plan.storeys.size(); ++s) {
     const OpenProject& open = plan.storeys[s];
+    const std::vector<bool> baked = bakedCameras(open);
     for (const int camera : plan.order[s]) {
       const ColumnCamera columns =
           columnCameraFor(open.layout->cameras[std::size_t(camera)], open.layout->eyeZ(),
                           open.layout->spec.nearBand, open.scene->bounds, open.project.bake);
-      queue.push_back({int(s), camera, double(columns.columns) * columns.rows});
+      queue.push_back({int(s), camera, double(columns.columns) * columns.rows,
+                       baked[std::size_t(camera)] ? CameraStage::reused : CameraStage::waiting});
     }
   }
   return queue;

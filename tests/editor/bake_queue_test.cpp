@@ -43,6 +43,21 @@ TEST(BakeQueue, FollowsACameraFromWaitingToDone) {
   EXPECT_EQ(queue.finished(), 2) << "news of cameras that are not in the list";
 }
 
+TEST(BakeQueue, CapturesThatAreThereAlreadyAreNoPartOfTheWork) {
+  BakeQueue queue;
+  queue.begin({{0, 0, 100, CameraStage::reused}, {0, 1, 100}, {0, 2, 300}});
+  EXPECT_EQ(queue.toBake(), 2);
+  EXPECT_EQ(queue.finished(), 0);
+  queue.tell(0, 0, news(0, CameraStage::reused));
+  EXPECT_EQ(queue.finished(), 0);
+  EXPECT_EQ(queue.share(), 0);
+  queue.tell(0, 0, news(1, kTracing));
+  queue.tell(1, 0, news(1, kWriting, 10));
+  queue.tell(2, 0, news(1, CameraStage::done, 10));
+  EXPECT_EQ(queue.finished(), 1);
+  EXPECT_EQ(queue.share(), 0.25);
+}
+
 TEST(BakeQueue, APreviewLeavesItsCameraWaiting) {
   BakeQueue queue = queueOf(3);
   CameraNews preview = news(2, kTracing, 5);
