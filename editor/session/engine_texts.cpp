@@ -6,6 +6,7 @@
 #include <array>
 #include <mutex>
 #include <optional>
+#include <regex>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -16,6 +17,7 @@
 #include "editor/session/engine_import.h"
 #include "editor/session/engine_names.h"
 #include "editor/session/engine_walk_errors.h"
+#include "ui/text_format.h"
 
 namespace acentric::editor {
 namespace {
@@ -96,6 +98,15 @@ std::optional<std::vector<std::string>> valuesIn(std::string_view text, const Pa
   }
 }
 
+/// A count as the language writes it; other values as they are.
+std::string inLanguage(const std::string& value) {
+  static const std::regex count("[0-9]{1,3}(,[0-9]{3}){1,5}");
+  if (!std::regex_match(value, count)) return value;
+  std::string digits = value;
+  std::erase(digits, ',');
+  return ui::formatCount(std::stoull(digits));
+}
+
 std::optional<std::string> inError(const std::string& english, int depth);
 
 std::optional<std::string> byPattern(const std::string& english, bool errorsOnly, int depth) {
@@ -110,7 +121,7 @@ std::optional<std::string> byPattern(const std::string& english, bool errorsOnly
       // What begins with a place is an error itself, or the place is taken off first.
       const bool first = &value == &values->front() && std::string_view(pattern.english).starts_with("{}");
       fits = fits && (known || !first || pattern.values == Values::list || value.find(": ") == value.npos);
-      store.push_back(known.value_or(value));
+      store.push_back(known.value_or(inLanguage(value)));
     }
     if (fits) return translated(pattern.english, store);
   }

@@ -60,6 +60,7 @@ TEST(EngineTexts, AreToldInTheLanguageWithTheirValues) {
   EXPECT_EQ(engineText("a surface is 0.20 m away towards 7 degrees and up; 0.40 m are asked for"),
             "eine Fläche ist 0.20 m entfernt, Richtung 7 Grad und aufwärts; verlangt sind 0.40 m");
   EXPECT_EQ(engineText("12 triangles in 2 meshes"), "12 Dreiecke in 2 Meshes");
+  EXPECT_EQ(engineText("1,234,567 triangles in 2 meshes"), "1\u202f234\u202f567 Dreiecke in 2 Meshes");
   EXPECT_EQ(engineText("1 material, 0 textures, 2 lights"), "1 Material, 0 Texturen, 2 Lichter");
   EXPECT_EQ(engineText("2 materials with textures: {0}, {x"), "2 Materialien mit Texturen: {0}, {x")
       << "names are no patterns";
