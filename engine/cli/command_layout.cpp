@@ -112,8 +112,8 @@ Report describeLayout(const OpenProject& open) {
   return report;
 }
 
-Result<Project> editProject(const OpenProject& open, const LayoutOptions& options,
-                            std::vector<std::string>& notes, const std::stop_token& stop) {
+Result<Project> editProject(const OpenProject& open, const LayoutOptions& options, const Common& common,
+                            std::vector<std::string>& notes) {
   Project project = open.project;
   auto edited = applyEdits(project.layout(), options.edits);
   if (!edited) return tl::unexpected(edited.error());
@@ -130,7 +130,15 @@ Result<Project> editProject(const OpenProject& open, const LayoutOptions& option
     project.layout().outline = std::move(*outline);
   }
   if (options.fit) {
-    const LatticeFit fit = fitLattice(project.layout(), {}, probeFor(*open.rays), stop);
+    const auto before = buildLayout(project.layout());
+    if (!before) return tl::unexpected(before.error());
+    const SurfaceProbe probe = probeFor(*open.rays);
+    const auto placement =
+        checkPlacement(*before, open.scene->bounds, {}, probe, *common.runner(), common.stop);
+    if (!placement) return tl::unexpected(placement.error());
+    LatticeFitOptions fitting;
+    fitting.shift.crowding.trustSides = !placement->ignoredSides;
+    const LatticeFit fit = fitLattice(project.layout(), fitting, probe, common.stop);
     notes.push_back(fmt::format("fitted: {:.1f} % of the floor lies in cells, {} cells are left out",
                                 100 * fit.served, fit.spec.removed.size()));
     project.layout() = fit.spec;
@@ -144,7 +152,7 @@ Result<Report> runLayout(const LayoutOptions& options, const Common& common) {
   auto open = openChosen(options.project, common);
   if (!open) return tl::unexpected(open.error());
   std::vector<std::string> notes;
-  const auto project = editProject(*open, options, notes, common.stop);
+  const auto project = editProject(*open, options, common, notes);
   if (!project) return tl::unexpected(project.error());
   const bool changed = *project != open->project;
   if (changed) {
