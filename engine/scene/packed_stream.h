@@ -19,6 +19,7 @@ class HashedOutput {
  public:
   explicit HashedOutput(std::FILE* file) : file_(file) {}
   void write(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return;  // fwrite takes no null pointer
     sound_ = sound_ && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
     hasher_.bytes(bytes.data(), bytes.size());
     written_ += bytes.size();
