@@ -59,8 +59,9 @@ FieldEdit numberField(const NumberField& field, int& value, float labelWidth) {
   return endField(changed, field.help);
 }
 
-void ReadyTextField::begin() {
+void ReadyTextField::begin(bool instead) {
   ++number_;
+  instead_ = instead;
   focus_ = early_ = true;
 }
 
@@ -69,17 +70,20 @@ bool ReadyTextField::draw(const char* hint, std::string& text) {
   if (early_)
     for (const ImWchar letter : ImGui::GetIO().InputQueueCharacters) {
       std::array<char, 5> utf8{};
-      if (letter >= ' ') text += ImTextCharToUtf8(utf8.data(), letter);
+      if (letter < ' ') continue;
+      if (std::exchange(instead_, false)) text.clear();
+      text += ImTextCharToUtf8(utf8.data(), letter);
     }
-  const auto toEnd = [](ImGuiInputTextCallbackData* field) {
-    field->ClearSelection();
-    field->CursorPos = field->BufTextLen;
+  const auto placeCaret = [](ImGuiInputTextCallbackData* field) {
+    field->CursorPos = field->SelectionStart = field->SelectionEnd = field->BufTextLen;
+    if (*static_cast<const bool*>(field->UserData)) field->SelectAll();
     return 0;
   };
   ImGui::PushID(number_);
   if (std::exchange(focus_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  ImGui::InputTextWithHint("##text", hint, &text, early_ ? ImGuiInputTextFlags_CallbackAlways : 0, toEnd);
+  ImGui::InputTextWithHint("##text", hint, &text, early_ ? ImGuiInputTextFlags_CallbackAlways : 0, placeCaret,
+                           &instead_);
   ImGui::PopID();
   early_ = early_ && !ImGui::IsItemActive();
   return text != before;

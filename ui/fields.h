@@ -31,14 +31,16 @@ FieldEdit checkField(const char* label, bool& value, float labelWidth, const cha
 /// third frame on: what is typed before is put into it, and the caret behind.)
 class ReadyTextField {
  public:
-  /// It is about to be shown, or is to have the keyboard again, with the text it has now.
-  void begin();
+  /// It is about to be shown, or is to have the keyboard again, with the text it has now: what is typed comes
+  /// behind it, or instead of it.
+  void begin(bool instead = false);
   /// True if the text changed.
   bool draw(const char* hint, std::string& text);
 
  private:
   int number_ = 0;  ///< of begin(): ImGui keeps the text of a field that it knows
   bool focus_ = false;
+  bool instead_ = false;
   bool early_ = false;  ///< the field doesn't take text yet
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "ui/colour.h"
 #include "ui/keys.h"
@@ -31,8 +32,8 @@ fs::path fromHome(const std::string& typed) {
 void FileBrowser::open(const FileRequest& request, Chosen chosen) {
   request_ = request;
   chosen_ = std::move(chosen);
-  open_ = true;
-  opening_ = true;
+  open_ = opening_ = true;
+  enter_ = false;
   name_ = request.saving ? request.name : "";
   question_.clear();
   std::error_code error;
@@ -52,7 +53,7 @@ void FileBrowser::list(const fs::path& folder) {
 void FileBrowser::enter(const fs::path& folder) {
   list(folder);
   if (!request_.saving || isPath(name_)) name_ = request_.saving ? request_.name : "";
-  nameField_.begin();
+  nameField_.begin(request_.saving);
 }
 
 /// Lists the folder of a path that is being typed, once there is one.
@@ -133,7 +134,7 @@ bool FileBrowser::handleKey(const InputEvent& event) {
       return true;
     case key::enter:
     case key::keypadEnter:
-      accept();
+      enter_ = true;  // once the field has what was typed before it
       return true;
     case key::escape:
       if (question_.empty())
@@ -236,6 +237,7 @@ void FileBrowser::draw(UiLog& log) {
     drawPlaces();
     drawEntries(log);
     drawFooter(log);
+    if (std::exchange(enter_, false)) accept();
     if (!stay) open_ = false;
     if (!open_) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();

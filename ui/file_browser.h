@@ -50,6 +50,7 @@ class FileBrowser {
   Chosen chosen_;
   bool open_ = false;
   bool opening_ = false;
+  bool enter_ = false;
   bool scrollToSelection_ = false;
   std::filesystem::path folder_;
   DirectoryListing listing_;

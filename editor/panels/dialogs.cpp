@@ -103,11 +103,15 @@ void Dialogs::openFileDialogs(PanelContext& context) {
 void Dialogs::askAboutScale(PanelContext& context) {
   EditorState& state = context.state();
   const Session& session = context.session();
+  if (!session.hasProject()) return judged_.clear();
+  if (!session.untouched()) return;
+  const std::filesystem::path model = sceneFileOf(session.file(), session.project());
+  if (state.dialog == Dialog::newProject) judged_ = model;
   const auto inspection = session.inspection();
-  if (!inspection || judged_ == session.generation() || state.dialog != Dialog::none) return;
-  judged_ = session.generation();
-  if (!session.untouched() || !inspection->scale || session.project().import.metresPerUnit != 0) return;
-  state.draft = {sceneFileOf(session.file(), session.project())};
+  if (!inspection || judged_ == model || state.dialog != Dialog::none) return;
+  judged_ = model;
+  if (!inspection->scale || session.project().import.metresPerUnit != 0) return;
+  state.draft = {model};
   state.dialog = Dialog::newProject;
 }
 

@@ -35,8 +35,8 @@ class Dialogs {
   std::deque<std::string> failures_;
   bool enter_ = false;  // pressed this frame, while a dialog of ours is open
   bool escape_ = false;
-  bool open_ = false;  // one of ours, last frame
-  int judged_ = -1;    // generation of the session whose scale was judged
+  bool open_ = false;             // one of ours, last frame
+  std::filesystem::path judged_;  // the model whose scale was asked about, or is not in doubt
 };
 
 }  // namespace acentric::editor

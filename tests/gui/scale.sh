@@ -45,3 +45,25 @@ wait_state 'working 0 dirty 0 undo 0' 30
 scale | grep -q '1 metres per unit (guessed)' || fail "taken back: $(scale)"
 leave_editor
 echo "the scale was asked about, changed and taken back"
+
+# The model itself is asked about however it is opened, and once.
+start_editor "$WORK/city.obj"
+wait_for '^rect new\.scale ' 60
+press Return
+wait_until 20 is_gone new.scale || fail "Create doesn't close the dialog"
+wait_state 'working 0' 60
+sleep 1
+rect new.scale >/dev/null && fail "asked about twice"
+press_with ctrl n
+wait_for '^rect file\.name ' 20
+xdotool type --delay 1 "$WORK/city.ob"
+press Return
+wait_until 60 rect new.scale || fail "New project doesn't ask, or a path that is typed isn't completed"
+click new.scale
+wait_until 60 is_gone new.scale || fail "the scale is still in doubt"
+wait_until 60 rect dialog.create || fail "New project isn't shown again"
+press Return
+wait_until 20 is_gone dialog.create || fail "Create doesn't close the dialog"
+wait_state 'working 0' 60
+leave_editor
+echo "a new project was asked about its scale"
