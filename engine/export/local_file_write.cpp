@@ -76,6 +76,8 @@ Status fill(BlockFileWriter& file, const LocalGeometry& local) {
                                   arrays.source.size(), surfaces.light.light.size(), surfaces.meshes.size()})
     file.describe(static_cast<std::uint32_t>(count));
   file.describe(arrays.flags);
+  if (!surfaces.light.empty())
+    if (Status sound = checkSurfaceLight(surfaces.light); !sound) return sound;
   const int unused = unusedBits(surfaces.light);
   const std::vector<std::byte> light =
       surfaces.light.empty() ? std::vector<std::byte>() : codeLight(surfaces.light, unused);

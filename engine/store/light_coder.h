@@ -14,7 +14,10 @@ namespace acentric {
 /// The last bits of all channels that are 0 in every sample, four at most: they are not coded.
 int unusedBits(const SurfaceLight& light);
 
-/// Of light whose tables agree with its samples. Alpha is not coded.
+/// Do the tables agree with each other and with the samples, and are these light? (surface_light_file.cpp)
+Status checkSurfaceLight(const SurfaceLight& light);
+
+/// Of light that checkSurfaceLight() finds sound. Alpha is not coded.
 std::vector<std::byte> codeLight(const SurfaceLight& light, int unusedBits);
 
 /// Fills in the samples, alpha 1; tables and the number of samples are known and agree.

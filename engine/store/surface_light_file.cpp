@@ -38,6 +38,8 @@ std::string badSide(std::size_t triangle) {
   return fmt::format("triangle {} has a side flag that is neither 0 nor 1", triangle);
 }
 
+}  // namespace
+
 Status checkSurfaceLight(const SurfaceLight& light) {
   const auto malformed = [](std::string message) {
     return fail(ErrorKind::malformed, std::move(message), "surface light");
@@ -62,6 +64,8 @@ Status checkSurfaceLight(const SurfaceLight& light) {
       return malformed("light must be finite and >= 0");
   return {};
 }
+
+namespace {
 
 Status writeLight(const SurfaceLight& light, const ContentKey& key, const std::filesystem::path& path,
                   const std::stop_token& stop) {

@@ -405,21 +405,24 @@ TEST_F(BundleTest, RefusesLocalFilesWithNumbersOutOfRange) {
   const std::size_t materials = bundle->materials.size(), mirrors = bundle->mirrors.size();
   EXPECT_TRUE(read(materials, mirrors, good));
   EXPECT_FALSE(read(1, mirrors, good));
-  const auto changed = [&](auto change) {
+  const auto with = [&](auto change) {
     LocalGeometry local = good;
     auto surfaces = std::make_shared<LocalSurfaces>(*good.surfaces);
     change(local, *surfaces);
     local.surfaces = surfaces;
-    return read(materials, mirrors, local);
+    return local;
   };
+  const auto changed = [&](auto change) { return read(materials, mirrors, with(change)); };
   EXPECT_FALSE(changed([](auto& local, auto&) { local.triangles[0].vertices.x = 1u << 30; }));
   EXPECT_FALSE(changed([](auto& local, auto&) { local.triangles[0].triangle = 1u << 30; }));
   EXPECT_FALSE(changed([](auto& local, auto&) { local.vertices[0].barycentric.x = 7; }));
   EXPECT_FALSE(changed([](auto& local, auto&) { local.vertices[0].position.y = std::nanf(""); }));
   EXPECT_FALSE(changed([](auto&, auto& surfaces) { surfaces.meshes[0].triangles[0].y = 1u << 30; }));
-  EXPECT_FALSE(changed([](auto&, auto& surfaces) { surfaces.light.resolution[0] = 60000; }));
-  EXPECT_FALSE(changed([](auto&, auto& surfaces) { surfaces.light.light[0].r = 0x7c00; }));
   EXPECT_FALSE(changed([](auto&, auto& surfaces) { surfaces.mirrorPlanes[0][0] = 100; }));
+  // Light that cannot be coded is not written in the first place.
+  const fs::path odd = room / "odd.local";
+  EXPECT_FALSE(writeLocalFile(with([](auto&, auto& all) { all.light.resolution[0] = 60000; }), odd));
+  EXPECT_FALSE(writeLocalFile(with([](auto&, auto& all) { all.light.light[0].r = 0x7c00; }), odd));
 }
 
 TEST_F(BundleTest, KeepsWholeTrianglesWithoutVerticesOfTheirOwn) {
