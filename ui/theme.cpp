@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <vector>
 
 #include "ui/colour.h"
 #include "ui/icons.h"
@@ -41,8 +42,14 @@ ImFont* loadFont(const char* file, float size, const ImWchar* glyphs = kGlyphs.d
 
 /// Japanese letters that the program's own texts need, and those that names are written with.
 struct JapaneseGlyphs {
-  ImVector<ImWchar> texts, names;
+  std::vector<ImWchar> texts, names;
 };
+
+std::vector<ImWchar> rangesOf(ImFontGlyphRangesBuilder& builder) {
+  ImVector<ImWchar> ranges;
+  builder.BuildRanges(&ranges);
+  return {ranges.begin(), ranges.end()};
+}
 
 JapaneseGlyphs japaneseGlyphs(bool names) {
   JapaneseGlyphs glyphs;
@@ -53,23 +60,23 @@ JapaneseGlyphs japaneseGlyphs(bool names) {
   for (std::size_t i = 0; kGlyphs[i] != 0; i += 2)
     for (unsigned c = kGlyphs[i]; c <= kGlyphs[i + 1]; ++c)
       builder.UsedChars[int(c >> 5U)] &= ~(1U << (c & 31U));
-  builder.BuildRanges(&glyphs.texts);
+  glyphs.texts = rangesOf(builder);
   if (!names) return glyphs;
   ImFontGlyphRangesBuilder more = builder;
   for (const ImWchar* range = ImGui::GetIO().Fonts->GetGlyphRangesJapanese(); *range != 0; range += 2)
     for (unsigned c = std::max<unsigned>(range[0], 0x3000); c <= range[1]; ++c) more.AddChar(ImWchar(c));
-  more.BuildRanges(&glyphs.names);
+  glyphs.names = rangesOf(more);
   return glyphs;
 }
 
 /// Adds to the font that was loaded last what it has no glyph for.
-void addJapanese(const char* file, float size, const ImVector<ImWchar>& glyphs) {
+void addJapanese(const char* file, float size, const std::vector<ImWchar>& glyphs) {
   if (glyphs.empty() || glyphs[0] == 0 || !isThere(file)) return;
   ImFontConfig config;
   config.MergeMode = true;
   config.OversampleH = 1;
   config.PixelSnapH = true;
-  ImGui::GetIO().Fonts->AddFontFromFileTTF(file, size, &config, glyphs.Data);
+  ImGui::GetIO().Fonts->AddFontFromFileTTF(file, size, &config, glyphs.data());
 }
 
 void setSizes(ImGuiStyle& style) {
