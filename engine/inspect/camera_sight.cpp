@@ -39,6 +39,7 @@ std::map<int, CameraSight> lookFrom(const std::vector<glm::dvec2>& places, const
   for (const Cover& cover : region.covers)
     for (const Piece& piece : cover.pieces) sights[piece.camera].places += static_cast<int>(places.size());
   const std::vector<Cover> drawn = drawnCovers(layout, static_cast<int>(&region - layout.regions.data()));
+  std::vector<const Piece*> holding(drawn.size());            // the point that is looked at, by cover
   const double far = double(glm::length(bounds.size())) + 1;  // where the sky is
   for (const glm::dvec2& place : places)
     for (const double slope : kSlopes)
@@ -49,13 +50,13 @@ std::map<int, CameraSight> lookFrom(const std::vector<glm::dvec2>& places, const
         const SurfaceHit hit = probe(eye, direction);
         const glm::dvec3 point = eye + (hit.found() ? hit.distance : far) * direction;
         if (region.grown.containsClosed(glm::dvec2(point))) continue;  // local geometry
-        const bool missed = std::ranges::all_of(drawn, [&](const Cover& cover) {
-          const Piece* piece = pieceAt(cover, glm::dvec2(point));
+        std::ranges::transform(drawn, holding.begin(),
+                               [&](const Cover& cover) { return pieceAt(cover, glm::dvec2(point)); });
+        const bool missed = std::ranges::all_of(holding, [&](const Piece* piece) {
           return piece == nullptr || isHidden(point, piece->apex, region.grown, layout.eyeZ(), probe);
         });
-        for (const Cover& cover : region.covers)
-          if (const Piece* piece = pieceAt(cover, glm::dvec2(point)))
-            sights[piece->camera].add({0, 1, missed ? 1 : 0});
+        for (std::size_t own = 0; own < region.covers.size(); ++own)  // they come first
+          if (holding[own] != nullptr) sights[holding[own]->camera].add({0, 1, missed ? 1 : 0});
       }
   return sights;
 }
