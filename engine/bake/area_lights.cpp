@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "engine/bake/ray_scene.h"
 #include "engine/bake/spherical_triangle.h"
@@ -16,7 +17,7 @@ namespace {
 /// A part of the hierarchy is opened while taking it as a point may be wrong by more than this share of all
 /// light that arrives (Walter et al., "Lightcuts", SIGGRAPH 2005), as long as there are no more than
 /// kMostParts.
-constexpr float kMostError = 0.005f;
+constexpr float kMostError = 0.01f;
 /// A single triangle is taken as a point from this many radii on.
 constexpr float kFarRadii = 16;
 /// Groups at least this large get a table of intensities; smaller ones are added up.
@@ -40,6 +41,9 @@ glm::vec2 octahedronPlace(const glm::vec3& d) {
 
 }  // namespace
 
+glm::vec3 AreaLights::Emitter::middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0f; }
+double AreaLights::Emitter::power() const { return double(luminance(radiance) * area); }
+
 AreaLights::AreaLights(const Scene& scene, const EffectPlan& plan) {
   if (!plan.on(Effect::areaLights)) return;
   lighting_ = lightingMeshes(scene);
@@ -61,42 +65,77 @@ AreaLights::AreaLights(const Scene& scene, const EffectPlan& plan) {
   nodes_.reserve(2 * emitters_.size());
   build(0, std::uint32_t(emitters_.size()));
   strengthBefore_.push_back(0);
-  for (const Emitter& e : emitters_)
-    strengthBefore_.push_back(strengthBefore_.back() + double(luminance(e.radiance) * e.area));
+  for (const Emitter& e : emitters_) strengthBefore_.push_back(strengthBefore_.back() + e.power());
+}
+
+/// Moves emitters so that the first ones, as many as it returns, lie together and the others do: parted
+/// across an axis where the mean square distances from the centres of both parts, weighted by power, are
+/// least (Otsu's threshold), to one of kBins slices.
+std::uint32_t AreaLights::split(std::uint32_t first, std::uint32_t count) {
+  constexpr int kBins = 32;
+  struct Bin {
+    std::uint32_t count = 0;
+    double power = 0;
+    glm::dvec3 moment{0};
+    void add(const Bin& other) { count += other.count, power += other.power, moment += other.moment; }
+  };
+  const std::span<Emitter> emitters(emitters_.data() + first, count);
+  Bounds middles;
+  for (const Emitter& e : emitters) middles.add(e.middle());
+  const glm::vec3 size = middles.size();
+  const auto binOf = [&](const Emitter& e, int axis) {
+    const float along = (e.middle()[axis] - middles.min[axis]) / size[axis];
+    return std::min(int(along * kBins), kBins - 1);
+  };
+  double most = -1;
+  int axis = 0, threshold = 0;
+  std::uint32_t half = 0;
+  for (int a = 0; a < 3; ++a) {
+    if (!(size[a] > 0)) continue;
+    std::array<Bin, kBins> bins;
+    Bin all, before;
+    for (const Emitter& e : emitters)
+      bins[std::size_t(binOf(e, a))].add({1, e.power(), e.power() * glm::dvec3(e.middle() - middles.min)});
+    for (const Bin& bin : bins) all.add(bin);
+    for (int b = 0; b + 1 < kBins; ++b) {
+      before.add(bins[std::size_t(b)]);
+      const double rest = all.power - before.power;
+      const glm::dvec3 other = all.moment - before.moment;
+      const double between =
+          glm::dot(before.moment, before.moment) / before.power + glm::dot(other, other) / rest;
+      if (before.power > 0 && rest > 0 && before.count < count && between > most)
+        most = between, axis = a, threshold = b, half = before.count;
+    }
+  }
+  if (half == 0) return count / 2;  // all at one place
+  std::ranges::partition(emitters, [&](const Emitter& e) { return binOf(e, axis) <= threshold; });
+  return half;
 }
 
 std::uint32_t AreaLights::build(std::uint32_t first, std::uint32_t count) {
   const auto index = std::uint32_t(nodes_.size());
   Node node;
   node.first = first, node.count = count;
-  Bounds middles;
+  const std::span<const Emitter> emitters(emitters_.data() + first, count);
   glm::dvec3 centre(0);
-  double weights = 0;
-  const auto middle = [](const Emitter& e) { return (e.corners[0] + e.corners[1] + e.corners[2]) / 3.0f; };
-  for (std::uint32_t i = first; i < first + count; ++i) {
-    const double weight = double(luminance(emitters_[i].radiance) * emitters_[i].area);
-    centre += weight * glm::dvec3(middle(emitters_[i]));
-    weights += weight;
-    middles.add(middle(emitters_[i]));
-    node.strength += emitters_[i].radiance * emitters_[i].area;
+  double whole = 0;
+  for (const Emitter& e : emitters) {
+    centre += e.power() * glm::dvec3(e.middle());
+    whole += e.power();
+    node.strength += e.radiance * e.area;
   }
-  node.centre = glm::vec3(centre / weights);
-  for (std::uint32_t i = first; i < first + count; ++i)
-    for (const glm::vec3& corner : emitters_[i].corners)
+  node.centre = glm::vec3(centre / whole);
+  for (const Emitter& e : emitters)
+    for (const glm::vec3& corner : e.corners)
       node.radius = std::max(node.radius, glm::distance(corner, node.centre));
   node.power = luminance(node.strength);
   nodes_.push_back(node);
   if (count == 1) {
     const Emitter& e = emitters_[first];
-    facets_.push_back({e.normal, luminance(e.radiance) * e.area, e.twoSided ? -1.0f : 0.0f});
+    facets_.push_back({e.normal, float(e.power()), e.twoSided ? -1.0f : 0.0f});
     return index;
   }
-  const glm::vec3 size = middles.size();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const std::uint32_t half = count / 2;
-  const auto begin = emitters_.begin() + first;
-  std::nth_element(begin, begin + half, begin + count,
-                   [&](const Emitter& a, const Emitter& b) { return middle(a)[axis] < middle(b)[axis]; });
+  const std::uint32_t half = split(first, count);
   build(first, half);
   const std::uint32_t second = build(first + half, count - half);
   nodes_[index].second = second;

@@ -43,6 +43,8 @@ class AreaLights {
     glm::vec3 radiance;
     float area = 0;
     bool twoSided = false;
+    glm::vec3 middle() const;
+    double power() const;  ///< luminance of radiance * area
   };
   struct Node {
     glm::vec3 centre{0};
@@ -92,6 +94,7 @@ class AreaLights {
     float weight = 0;  ///< relative to the part's mean; 0 = cannot arrive
   };
 
+  std::uint32_t split(std::uint32_t first, std::uint32_t count);
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
   void fillTable(std::uint32_t index);
   float shareTowards(const Node& node, const glm::vec3& direction) const;

@@ -101,6 +101,31 @@ TEST(AreaLights, ASphereOfThousandsOfTrianglesFallsOffWithTheSquareOfItsDistance
   }
 }
 
+TEST(AreaLights, OfManyLampsAroundComeWithinThreePercentOfAllTheirTriangles) {
+  // 7 x 7 lamps of a hall, near and far from places between them: more parts than a cut may have.
+  SceneBuilder builder;
+  const int lamp = builder.material(glowing(2));
+  for (int x = -3; x <= 3; ++x)
+    for (int y = -3; y <= 3; ++y)
+      builder.sphere(lamp, {2.4f * float(x) + 0.3f * float(y % 2), 1.9f * float(y), 3}, 0.06f, 6);
+  builder.floor(builder.material(matte()), 0.1f, -9);
+  const auto scene = builder.rays();
+  const AreaLights lights(scene->scene(), scene->plan());
+  for (const glm::dvec3 place : {glm::dvec3{0.3, 0.2, 0}, {1.3, -2.9, 1.4}, {-4.1, 0.8, 2.2}, {2, 2, 2.8}}) {
+    double expected = 0;
+    for (const Mesh& mesh : scene->scene().meshes) {
+      if (mesh.material != lamp) continue;
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        std::array<glm::dvec3, 3> corners;
+        for (int c = 0; c < 3; ++c) corners[c] = glm::dvec3(mesh.positions[mesh.triangles[t][c]]) - place;
+        if (glm::dot(glm::dvec3(triangleNormal(mesh, t)), corners[0]) < 0)
+          expected += 2 * triangleIrradiance(corners, {0, 0, 1});
+      }
+    }
+    EXPECT_NEAR(lights.irradiance(facingUp(place)).x, expected, 0.03 * expected) << place.z << " m up";
+  }
+}
+
 TEST(AreaLights, OnlyTheFrontShinesUnlessTheMaterialHasTwoSides) {
   for (const bool twoSided : {false, true}) {
     SceneBuilder builder;
