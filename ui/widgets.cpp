@@ -111,7 +111,7 @@ void wrappedText(const Colour& colour, const std::string& text) {
 void keyValue(const char* label, const std::string& value, float valueX) {
   mutedText(label);
   ImGui::SameLine(scaled(valueX));
-  ImGui::TextUnformatted(value.c_str());
+  wrappedText(palette::text, value);
 }
 
 void progressBar(double fraction, const std::string& text, double seconds, const Colour& colour) {

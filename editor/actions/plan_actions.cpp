@@ -151,7 +151,7 @@ void addPlanActions(std::vector<Action>& table) {
                    trLater("Show everything"),
                    {key::f, 0},
                    {},
-                   trLater("All that is laid out; in 3D the selected cells, if any are"),
+                   trLater("All that is laid out; in 3D first the selected cells, if any are"),
                    true,
                    withProject,
                    [](ActionContext& c) {

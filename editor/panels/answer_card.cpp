@@ -91,7 +91,6 @@ void drawAnswer(const PictureQuestion& question, const PictureAnswer& answer) {
   ui::keyValue(tr("Error here"), errorsText(answer.here), kCardLabel);
   ui::tooltip(trf("Against {} rays per pixel, within {} pixels: how near, and what keeps it from the truth",
                   kAskedRays, kAskedPixels));
-  ui::keyValue(tr("Frame"), fmt::format("{:.1f} dB", answer.frame.psnr()), kCardLabel);
 }
 
 std::string costText(const BakeForecast& bake) {

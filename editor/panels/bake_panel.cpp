@@ -72,9 +72,7 @@ void drawForecast(const Session& session) {
     text = trf("{}: about {}, {} on disk, up to {} of memory", what, ui::formatDuration(forecast->seconds()),
                ui::formatBytes(std::uint64_t(forecast->bytes())), ui::formatBytes(forecast->memoryBytes));
   }
-  ui::mutedText(tr("To bake"));
-  ImGui::SameLine(ui::scaled(kValueX));
-  ui::wrappedText(ui::palette::text, text);
+  ui::keyValue(tr("To bake"), text, kValueX);
   if (forecast && !forecast->nothing())
     ui::tooltip(
         trf("Estimated when the bake began, for {} (±{:.0f} %). The memory is that of captures "
@@ -113,9 +111,7 @@ void drawPlan(const Session& session) {
                                   ui::formatDuration(cost->forecast.seconds()),
                                   ui::formatBytes(std::uint64_t(cost->forecast.bytes())));
   }
-  ui::mutedText(tr("Plan"));
-  ImGui::SameLine(ui::scaled(kValueX));
-  ui::wrappedText(ui::palette::text, text);
+  ui::keyValue(tr("Plan"), text, kValueX);
 }
 
 void drawFacts(PanelContext& context) {

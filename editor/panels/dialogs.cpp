@@ -86,7 +86,9 @@ void Dialogs::openFileDialogs(PanelContext& context) {
   } else if (state.dialog == Dialog::saveAs) {
     state.dialog = Dialog::none;
     const Continuation then = std::exchange(state.continuation, {});
-    browser_.open({tr("Save the project"),
+    const bool baking = then.kind == Continuation::Kind::bake;
+    browser_.open({tr(baking ? trLater("Save the project first: captures are kept beside it")
+                             : trLater("Save the project")),
                    true,
                    session.file().parent_path(),
                    session.readOnly() ? freeCopyName(session.file()).filename().string()

@@ -78,8 +78,13 @@ void ScenePanel::followProject(PanelContext& context) {
     if (state.lookThrough && !cameraAtPlace(*open.layout, *state.lookThrough)) state.lookThrough.reset();
   }
   if (std::exchange(state.frame, false)) {
-    const SceneBox box = boxToFrame(open.scene->bounds, *open.layout, context.state().selection);
-    camera_.frame(box.low, box.high, fresh);
+    const OrbitCamera before = camera_;
+    const auto frame = [&](const std::set<CellId>& cells) {
+      const SceneBox box = boxToFrame(open.scene->bounds, *open.layout, cells);
+      camera_.frame(box.low, box.high, fresh);
+    };
+    frame(context.state().selection);
+    if (camera_ == before) frame({});  // asked again: all of it
   }
 }
 

@@ -17,6 +17,8 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
+constexpr std::size_t kMendedSingly = 3;  ///< places where cameras stand badly; more are also offered as one
+
 std::string nameOf(const Region& region) {
   return region.id.slot == kFreeSlot ? trf("Panorama {}", region.id.i)
          : region.id.slot == 0       ? trf("Cell ({}, {})", region.id.i, region.id.j)
@@ -80,6 +82,12 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
     std::set<int> withoutRoom;
     for (const PlacementFinding& finding : findings)
       if (finding.flaw == PlacementFlaw::noStandingRoom) withoutRoom.insert(finding.region);
+    if (worst.size() > kMendedSingly)
+      problems.push_back(
+          {std::ranges::max(worst, {}, &PlacementFinding::severity)->severity,
+           trf("Cameras or cells stand badly in {} places: fit them all at once", worst.size()),
+           {.look = PlanLook::checks},
+           ProblemFix{tr("Fit cells"), RunAction{"layout.fit"}}});
     const std::size_t listed = std::min(worst.size(), kMostOfAKind);
     for (const PlacementFinding* finding : std::span(worst).first(listed)) {
       const int of = finding->region >= 0        ? finding->region
@@ -97,11 +105,6 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
       problem.fix = fixOf(*finding, region, of >= 0 && withoutRoom.contains(of));
       problems.push_back(std::move(problem));
     }
-    if (const std::size_t more = worst.size() - listed; more > 0)
-      problems.push_back({Severity::warning,
-                          trf("{} more where cameras or cells stand badly", more),
-                          {.look = PlanLook::checks},
-                          ProblemFix{tr("Fit cells"), RunAction{"layout.fit"}}});
   }
   const std::size_t suffice = std::size_t(std::ranges::count(findings, true, &PlacementFinding::suffices));
   if (const std::size_t looks = notes - suffice; looks > 0)

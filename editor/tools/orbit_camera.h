@@ -15,6 +15,8 @@ class OrbitCamera {
   static constexpr double kRadiansPerPixel = 0.006;
   static constexpr double kNearest = 1e-4, kFarthest = 1e7;  ///< metres from the target
 
+  bool operator==(const OrbitCamera&) const = default;
+
   /// Pixels; at least 1 x 1.
   void setSize(const glm::ivec2& size);
   /// A picture of `scale` times as many pixels each way.

@@ -38,21 +38,27 @@ class ViewRays {
 
 TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings,
                        float exposure, int samplesPerPixel, TaskRunner& runner, const std::stop_token& stop) {
+  return renderTruth(scene, view, view.pixels(), settings, exposure, samplesPerPixel, runner, stop);
+}
+
+TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const PixelRect& part,
+                       const BakeSettings& settings, float exposure, int samplesPerPixel, TaskRunner& runner,
+                       const std::stop_token& stop) {
   require(view.check().has_value(), "a view to render is sound");
   require(settings.check().has_value(), "bake settings are checked before they are used");
   const int grid = int(std::lround(std::sqrt(double(samplesPerPixel))));
   require(grid >= 1 && grid * grid == samplesPerPixel, "samples per pixel are a square number");
 
-  TruthFrame frame{ColourImage(view.width, view.height), FloatImage(view.width, view.height), {}};
+  TruthFrame frame{ColourImage(part.width(), part.height()), FloatImage(part.width(), part.height()), {}};
   const Shader shader(scene, settings, stop);
   const ViewRays camera(view);
-  std::vector<RayCounts> counts(std::size_t(view.height));
-  runner.parallelFor(std::size_t(view.height), [&](std::size_t row) {
+  std::vector<RayCounts> counts(std::size_t(part.height()));
+  runner.parallelFor(counts.size(), [&](std::size_t row) {
     if (stop.stop_requested()) return;
     const FlushDenormals flush;
     RayCounts& rays = counts[row];
-    const int y = int(row);
-    for (int x = 0; x < view.width; ++x) {
+    const int y = part.y0 + int(row);
+    for (int x = part.x0; x < part.x1; ++x) {
       glm::vec3 sum(0);
       float distance = std::numeric_limits<float>::infinity();
       bool centred = false;
@@ -67,8 +73,8 @@ TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const
       if (!centred)
         distance =
             shader.seenAlong(camera.through(x + 0.5, y + 0.5), &RayCounts::primary, rays).opaque.distance;
-      frame.colour.at(x, y) = encodeForDisplay(sum / float(samplesPerPixel), exposure);
-      frame.rayDistance.at(x, y) = distance;
+      frame.colour.at(x - part.x0, int(row)) = encodeForDisplay(sum / float(samplesPerPixel), exposure);
+      frame.rayDistance.at(x - part.x0, int(row)) = distance;
     }
   });
   for (const RayCounts& c : counts) frame.rays += c;
@@ -100,7 +106,7 @@ Panorama tracePanorama(const RayScene& scene, const glm::dvec3& eye, int height,
 }
 
 Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const PerspectiveView& view,
-                                        TaskRunner& runner) {
+                                        const PixelRect& part, TaskRunner& runner) {
   require(view.check().has_value(), "a view to render is sound");
   const std::vector<MaterialRules> rules = materialRules(scene.scene(), scene.plan());
   const DetailRules detail = detailRules(scene.plan());
@@ -119,11 +125,11 @@ Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const Perspective
     }
     return false;
   };
-  Image<std::uint8_t> out(view.width, view.height);
-  runner.parallelFor(std::size_t(view.height), [&](std::size_t row) {
+  Image<std::uint8_t> out(part.width(), part.height());
+  runner.parallelFor(std::size_t(part.height()), [&](std::size_t row) {
     const FlushDenormals flush;
-    for (int x = 0; x < view.width; ++x)
-      out.at(x, int(row)) = depends(camera.through(x + 0.5, double(row) + 0.5)) ? 1 : 0;
+    for (int x = part.x0; x < part.x1; ++x)
+      out.at(x - part.x0, int(row)) = depends(camera.through(x + 0.5, part.y0 + double(row) + 0.5)) ? 1 : 0;
   });
   return out;
 }

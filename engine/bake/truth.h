@@ -22,6 +22,10 @@ struct TruthFrame {
 TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const BakeSettings& settings,
                        float exposure, int samplesPerPixel, TaskRunner& runner,
                        const std::stop_token& stop = {});
+/// The same of some of the view's pixels, as large as these.
+TruthFrame renderTruth(const RayScene& scene, const PerspectiveView& view, const PixelRect& part,
+                       const BakeSettings& settings, float exposure, int samplesPerPixel, TaskRunner& runner,
+                       const std::stop_token& stop = {});
 
 /// All around a place, equirectangular: twice as wide as high, row 0 at the zenith, the middle along azimuth
 /// 0 (+x) and azimuths growing to the left, as from inside.
@@ -37,7 +41,7 @@ Panorama tracePanorama(const RayScene& scene, const glm::dvec3& eye, int height,
 /// 1 where what a pixel's centre shows looks different from elsewhere: metals, mirrors, and what lies behind
 /// glass; else 0. Shades nothing.
 Image<std::uint8_t> viewDependentPixels(const RayScene& scene, const PerspectiveView& view,
-                                        TaskRunner& runner);
+                                        const PixelRect& part, TaskRunner& runner);
 
 /// Exposure that puts the log-average radiance seen from `eyes` (all around, low resolution) at middle grey
 /// 0.18.

@@ -64,8 +64,8 @@ std::string textOf(const PictureAnswer& answer, const OpenProject& open) {
     if (const int most = open.project.budget.trianglesPerRegion; most > 0)
       text += fmt::format(" of {}", countText(std::uint64_t(most)));
   }
-  text += fmt::format("\n  error around it (within {} pixels): {}", kAskedPixels, errorText(answer.here));
-  return text + fmt::format("\n  error of the frame: {}\n", errorText(answer.frame));
+  return text +
+         fmt::format("\n  error around it (within {} pixels): {}\n", kAskedPixels, errorText(answer.here));
 }
 
 Json errorJson(const Attribution& errors) {
@@ -83,8 +83,7 @@ Json jsonOf(const PictureAnswer& answer, const OpenProject& open) {
                {"source", sourceName(*open.layout, answer.source)},
                {"colour", colourJson(answer.shown)},
                {"truth", colourJson(answer.truth)},
-               {"around", errorJson(answer.here)},
-               {"frame", errorJson(answer.frame)}};
+               {"around", errorJson(answer.here)}};
   if (const auto& painter = answer.painter)
     json["painter"] = {{"camera", painter->camera},
                        {"layer", painter->layer},

@@ -52,7 +52,8 @@ Result<Report> runMeasure(const MeasureOptions& options, const Common& common) {
     const auto comparison = compare(*frame, truth.colour, truth.rayDistance);
     if (!comparison) return tl::unexpected(comparison.error());
     if (options.attribution)
-      attribution.add(*frame, truth, viewDependentPixels(*open.rays, views[i], *runner), views[i]);
+      attribution.add(*frame, truth, viewDependentPixels(*open.rays, views[i], views[i].pixels(), *runner),
+                      views[i]);
     if (options.seams) seams += measureSeam(*frame, truth.colour, truth.rayDistance);
     if (!options.images.empty())
       if (Status written = writeTriple(options.images, i, *frame, truth); !written)

@@ -7,6 +7,13 @@
 
 namespace acentric {
 
+/// Pixels [x0, x1) x [y0, y1).
+struct PixelRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+};
+
 struct PerspectiveView {
   glm::dvec3 eye{0};                       ///< world, metres
   double yawRadians = 0;                   ///< azimuth of the viewing direction
@@ -17,6 +24,7 @@ struct PerspectiveView {
 
   /// Finite, field of view in [0.1, 179.9] degrees, size in [1, 16384].
   Status check() const;
+  PixelRect pixels() const { return {0, 0, width, height}; }
 
   /// Focal length in pixels: u = width/2 + focal * x/z, v = height/2 + focal * y/z.
   double focalPixels() const;

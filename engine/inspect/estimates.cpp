@@ -16,8 +16,10 @@ constexpr std::size_t kFewestProbes = 32;
 constexpr std::size_t kSlicedProbes = 8;
 /// Rays for probing cameras, and samples of the surfaces' own light, at an effort of 1.
 constexpr double kCaptureRays = 12e6, kLightSamples = 4e5;
-/// The same where it is to be brief: a tenth of the cameras, within these bounds.
-constexpr std::size_t kFewestBriefProbes = 4, kBriefProbes = 10, kBriefSliced = 5, kGlanceSliced = 2;
+/// The same where it is to be brief: a tenth of the cameras, within these bounds, as long as that takes no
+/// more than kBriefSeconds.
+constexpr double kBriefSeconds = 2;
+constexpr std::size_t kFewestBriefProbes = 4, kBriefProbes = 10, kBriefSliced = 3, kGlanceSliced = 2;
 
 /// Ratio estimate of `part` per `whole` over the probes that have any of it, with its standard error; `share`
 /// of the population was probed.
@@ -93,9 +95,11 @@ Result<std::vector<CaptureProbe>> probeCaptures(const std::vector<int>& order, c
                                        ? kFewestProbes
                                        : std::clamp(order.size() / 10, kFewestBriefProbes,
                                                     options.glance ? kFewestBriefProbes : kBriefProbes);
+  const Stopwatch watch;
   double rays = 0;
   for (std::size_t probed = 0; probed < order.size(); ++probed) {
     if (probed >= fewestProbes && rays >= wanted) break;
+    if (options.brief && probed >= kFewestBriefProbes && watch.seconds() > kBriefSeconds) break;
     if (stop.stop_requested()) return tl::unexpected(stopped());
     if (progress) {
       const double fewest = double(probed) / double(std::min(fewestProbes, order.size()));

@@ -17,10 +17,10 @@ namespace {
 constexpr double kLeastGain = 0.1;  ///< dB
 
 template <class Pixel>
-Image<Pixel> cropped(const Image<Pixel>& image, const glm::ivec2& low, const glm::ivec2& high) {
-  Image<Pixel> out(high.x - low.x, high.y - low.y);
+Image<Pixel> cropped(const Image<Pixel>& image, const PixelRect& part) {
+  Image<Pixel> out(part.width(), part.height());
   for (int y = 0; y < out.height; ++y)
-    for (int x = 0; x < out.width; ++x) out.at(x, y) = image.at(low.x + x, low.y + y);
+    for (int x = 0; x < out.width; ++x) out.at(x, y) = image.at(part.x0 + x, part.y0 + y);
   return out;
 }
 
@@ -264,26 +264,23 @@ Result<PictureAnswer> askPicture(const OpenProject& open, const WalkScene& walk,
                                                         pixel.y, view.width, view.height));
   if (walk.captures.size() != open.layout->cameras.size() || walk.local.size() != open.layout->regions.size())
     return fail(ErrorKind::invalidArgument, "the frame is of another layout");
-  const TruthFrame truth =
-      renderTruth(*open.rays, view, open.project.bake, walk.exposure, kAskedRays, runner, stop);
+  const PixelRect around{std::max(pixel.x - kAskedPixels, 0), std::max(pixel.y - kAskedPixels, 0),
+                         std::min(pixel.x + kAskedPixels + 1, view.width),
+                         std::min(pixel.y + kAskedPixels + 1, view.height)};
+  TruthFrame truth =
+      renderTruth(*open.rays, view, around, open.project.bake, walk.exposure, kAskedRays, runner, stop);
   if (stop.stop_requested()) return fail(ErrorKind::cancelled, "stopped");
-  const Image<std::uint8_t> viewDependent = viewDependentPixels(*open.rays, view, runner);
 
   PictureAnswer answer;
   answer.view = view;
   answer.pixel = pixel;
   answer.source = frame.source.at(pixel.x, pixel.y);
   answer.shown = frame.colour.at(pixel.x, pixel.y);
-  answer.truth = truth.colour.at(pixel.x, pixel.y);
+  answer.truth = truth.colour.at(pixel.x - around.x0, pixel.y - around.y0);
   answer.surface = surfaceAt(open, view, pixel);
-  answer.frame = attribute(frame, truth.colour, truth.rayDistance, viewDependent);
-
-  const glm::ivec2 low = glm::max(pixel - kAskedPixels, glm::ivec2(0));
-  const glm::ivec2 high = glm::min(pixel + kAskedPixels + 1, glm::ivec2(view.width, view.height));
-  const Frame part{cropped(frame.colour, low, high), cropped(frame.source, low, high), {}};
-  answer.truthHere = cropped(truth.colour, low, high);
-  answer.here = attribute(part, answer.truthHere, cropped(truth.rayDistance, low, high),
-                          cropped(viewDependent, low, high));
+  answer.here = attribute({cropped(frame.colour, around), cropped(frame.source, around), {}}, truth.colour,
+                          truth.rayDistance, viewDependentPixels(*open.rays, view, around, runner));
+  answer.truthHere = std::move(truth.colour);
 
   if (const auto region = open.layout->regionAt(glm::dvec2(view.eye))) {
     answer.region = *region;

@@ -35,12 +35,12 @@ struct PictureAnswer {
   std::optional<PixelPainter> painter;  ///< nothing: no capture painted it
   int region = -1;                      ///< where the eye stands; -1: outside
   std::size_t triangles = 0;            ///< of the region's local geometry
-  Attribution here, frame;              ///< within kAskedPixels; of all pixels
-  ColourImage truthHere;                ///< as far as `here` counts
+  Attribution here;                     ///< within kAskedPixels
+  ColourImage truthHere;                ///< of these
 };
 
-/// `frame`: of `view`, from captures as `open` bakes them; `walk` as it was drawn from. Traces the truth of
-/// the whole view with kAskedRays.
+/// `frame`: of `view`, from captures as `open` bakes them; `walk` as it was drawn from. Traces the truth
+/// around the pixel with kAskedRays.
 Result<PictureAnswer> askPicture(const OpenProject& open, const WalkScene& walk, const Frame& frame,
                                  const PerspectiveView& view, const glm::ivec2& pixel, TaskRunner& runner,
                                  const std::stop_token& stop = {});

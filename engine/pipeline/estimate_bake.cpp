@@ -39,6 +39,7 @@ constexpr double kSlicePixels = 2e5;
 constexpr std::size_t kTimedRegions = 8;  ///< whose test eyes are found
 constexpr std::size_t kTimedViews = 8;    ///< what eyes see, as finely as a bake looks
 constexpr double kBriefly = 10;           ///< so many times fewer of all these, where it is to be brief
+constexpr std::size_t kBriefSlices = 3;   ///< cameras that tell of bytes, where it is to be brief
 
 /// With which cameras are probed: maps of what eyes see that do for few pixels (more is traced along edges),
 /// and little gathering, since a part would gather nearly all for itself alone. Colours are then rougher by
@@ -201,17 +202,20 @@ class ProjectProber final : public BakeProber {
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads()) / fewer_;
     const double thinning = double(whole.columns) * whole.rows / wanted;
     probes_.push_back({});
-    if (thinning < 2) return traceTrial(camera, whole, true);
+    if (thinning < 2) return traceTrial(camera, whole);
     // Columns spread over all of it tell of samples and time, some side by side of the file.
     ColumnCamera fewColumns = whole;
     const int evenly = kColumnsPerThread * runner_.threads();
     fewColumns.columns =
         std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
-    const auto spread = traceTrial(camera, fewColumns, false);
-    if (!spread) return spread;
+    auto first = bake(camera, fewColumns);
+    if (!first) return tl::unexpected(first.error());
+    const auto spread = count(camera, fewColumns, *first);
+    if (!spread || (brief_ && probes_.size() > kBriefSlices)) return spread;
     double traced = *spread;
     for (const ColumnCamera& slice : slicesOf(whole, kProbeColumns, wanted, probes_.size())) {
-      const auto rays = traceTrial(camera, slice, true);
+      // A slice has many more pixels than a brief estimate counts.
+      const auto rays = brief_ ? writeTrial(camera, slice) : traceTrial(camera, slice);
       if (!rays) return rays;
       traced += *rays;
     }
@@ -347,12 +351,27 @@ class ProjectProber final : public BakeProber {
     return traced;
   }
 
-  /// Rays of all purposes. What is `written` tells of bytes.
-  Result<double> traceTrial(int camera, const ColumnCamera& columns, bool written) {
+  /// Counts it, and writes it, which tells of bytes. Rays of all purposes.
+  Result<double> traceTrial(int camera, const ColumnCamera& columns) {
     auto first = bake(camera, columns);
     if (!first) return tl::unexpected(first.error());
-    const RayCounts& rays = first->counts.rays;
-    double seconds = first->seconds, traced = double(rays.total());
+    const auto traced = count(camera, columns, *first);
+    if (!traced) return traced;
+    if (Status put = write(std::move(first->capture)); !put) return tl::unexpected(put.error());
+    return traced;
+  }
+  Result<double> writeTrial(int camera, const ColumnCamera& columns) {
+    auto first = bake(camera, columns);
+    if (!first) return tl::unexpected(first.error());
+    if (Status put = write(std::move(first->capture)); !put) return tl::unexpected(put.error());
+    return double(first->counts.rays.total());
+  }
+  Status write(Capture&& capture) { return writer_->put({0, probes_.size() - 1}, std::move(capture)); }
+
+  /// Rays of all purposes.
+  Result<double> count(int camera, const ColumnCamera& columns, const Traced& first) {
+    const RayCounts& rays = first.counts.rays;
+    double seconds = first.seconds, traced = double(rays.total());
     if (rays.gathered > 0) {  // now that it is there, what the rest takes
       const auto again = bake(camera, columns);
       if (!again) return tl::unexpected(again.error());
@@ -361,13 +380,10 @@ class ProjectProber final : public BakeProber {
     }
     CaptureProbe& probe = probes_.back();
     probe.pixels += double(columns.columns) * columns.rows;
-    probe.samples += double(first->capture.sampleCount());
+    probe.samples += double(first.capture.sampleCount());
     // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is probed.
     probe.rays += double(rays.total() - rays.visibility - rays.gathered);
     probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
-    if (written)
-      if (Status put = writer_->put({0, probes_.size() - 1}, std::move(first->capture)); !put)
-        return tl::unexpected(put.error());
     return traced;
   }
 

@@ -14,13 +14,6 @@
 
 namespace acentric {
 
-/// Pixels [x0, x1) x [y0, y1).
-struct PixelRect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-};
-
 /// Inward unit normals, in world axes, of the rectangle's four sides and of the plane through the eye.
 struct FrustumPlanes {
   std::array<glm::dvec3, 5> normals;

@@ -93,7 +93,8 @@ TEST(ViewDependentPixels, AreThoseOfMetalsMirrorsAndGlass) {
     builder.quad(builder.material(back), {5, 12, -12}, {5, -12, -12}, {5, -12, 12}, {5, 12, 12})
         .sky(glm::vec3(1));
     TaskRunner runner(1);
-    const Image<std::uint8_t> pixels = viewDependentPixels(*builder.rays(), smallView(), runner);
+    const Image<std::uint8_t> pixels =
+        viewDependentPixels(*builder.rays(), smallView(), smallView().pixels(), runner);
     return double(std::ranges::count(pixels.pixels, 1)) / double(pixels.pixels.size());
   };
   EXPECT_EQ(shareBehind(matte(), metal), 0) << "hidden";

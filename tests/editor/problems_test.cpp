@@ -189,6 +189,20 @@ TEST(Problems, ABadlyPlacedCameraIsHelpedByAPanoramaARoomlessCellRemovedAFreePan
   EXPECT_EQ(moved.project.layout().latticeOrigin, facts.built->project.layout().latticeOrigin);
 }
 
+TEST(Problems, WhereManyCamerasStandBadlyOneStepForAllComesFirst) {
+  ProblemFacts facts = sound();
+  std::vector<PlacementFinding> findings;
+  for (int n = 0; n < 4; ++n) {
+    findings.push_back({PlacementFlaw::noFloor, Severity::warning, {n}, -1, {n, 1}, "nothing is below", {}});
+    change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = findings; });
+    const auto problems = findProblems(facts);
+    const bool many = n == 3;
+    ASSERT_EQ(problems.size(), findings.size() + (many ? 1 : 0));
+    EXPECT_EQ(says(problems.front(), "badly in 4 places"), many) << problems.front().text;
+    EXPECT_EQ(actionOf(problems.front().fix), "layout.fit");
+  }
+}
+
 TEST(Problems, OfOneCameraOnlyTheWorstIsTold) {
   ProblemFacts facts = sound();
   const PlacementFinding inside{PlacementFlaw::insideSolid, Severity::error, {0}, -1, {1, 1}, "inside", {}};

@@ -43,6 +43,11 @@ CELL=$(grep -oE '^rect cell3d\.[-0-9]+\.[-0-9]+\.0 ' "$WORK/ui.log" | awk '{ pri
 done | awk '{ d = ($1 - $4) ^ 2 + ($2 - $5) ^ 2; print d, $3 }' | sort -n | sed -n 1p | awk '{ print $2 }')
 [ -n "$CELL" ] || fail "no cell is shown in 3D"
 click "$CELL"
+# F shows the cell, F again everything.
+N=$(frames); press f; at_rest "$N"
+NEAR=$(eye)
+N=$(frames); press f; at_rest "$N"
+echo "$NEAR $(eye)" | awk '{ exit !($7 > $3 + 0.5) }' || fail "F once more did not show everything: $NEAR, then $(eye)"
 at=$(place "$CELL")
 # shellcheck disable=SC2086
 xdotool mousemove --window "$WINDOW" $at; sleep 0.3

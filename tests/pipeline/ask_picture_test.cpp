@@ -61,7 +61,10 @@ TEST_F(AskPictureTest, TellsWhatPaintedAPixelAndHowFinely) {
   EXPECT_EQ(answer->painter->layer, 1);
   EXPECT_EQ(answer->region, *room_.open.layout->regionAt(glm::dvec2(view.eye)));
   EXPECT_GT(answer->here.pixels(), 500u);
-  EXPECT_EQ(answer->frame.pixels(), std::size_t(view.width) * std::size_t(view.height));
+  const TruthFrame truth =
+      renderTruth(*room_.open.rays, view, room_.open.project.bake, room_.walk.exposure, kAskedRays, runner_);
+  EXPECT_EQ(answer->truth, truth.colour.at(48, 27)) << "a part of the truth is as all of it";
+  EXPECT_EQ(answer->truthHere.at(0, 24), truth.colour.at(48 - kAskedPixels, 27 + kAskedPixels));
 }
 
 TEST_F(AskPictureTest, ADeeperLayerIsOneBehindSomethingElse) {
