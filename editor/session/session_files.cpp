@@ -330,6 +330,8 @@ void Session::lookForAutosave() {
 }
 
 void Session::autosave(double now) {
+  // What it held was undone: there is nothing to recover.
+  if (!dirty() && autosaved_ && recovered_.empty()) forgetAutosave(), autosaved_.reset();
   if (!worthAsking() || now < nextAutosave_) return;
   nextAutosave_ = now + options_.autosaveSeconds.value_or(preferences_.autosaveSeconds);
   keepWork();

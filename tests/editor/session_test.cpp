@@ -325,6 +325,24 @@ TEST_F(SessionTest, ACrashedRunIsOfferedForRecoveryAndTheFileIsAsItWasSaved) {
   waitFor(session, [&] { return !session.working(); });
 }
 
+TEST_F(SessionTest, NothingIsOfferedOfWhatWasUndone) {
+  const fs::path file = folder_ / "room.acentric.json";
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  ASSERT_TRUE(session.saveAs(file));
+  session.apply(setEyeHeight(session.project(), 1.23));
+  session.poll(now_ + 100);
+  ASSERT_TRUE(fs::exists(autosaveFileFor(file)));
+  session.undo();
+  ASSERT_FALSE(session.dirty());
+  session.poll(now_ + 101);
+  EXPECT_FALSE(fs::exists(autosaveFileFor(file)));
+  session.redo();
+  session.poll(now_ + 200);
+  EXPECT_TRUE(fs::exists(autosaveFileFor(file))) << "done again, it is kept again";
+  waitFor(session, [&] { return !session.working(); });
+}
+
 TEST_F(SessionTest, TheInspectionFollowsEditsAndCostsNothingUnasked) {
   Session session(options());
   openAndSettle(session, folder_ / "room.obj");
