@@ -68,9 +68,8 @@ AreaLights::AreaLights(const Scene& scene, const EffectPlan& plan) {
   for (const Emitter& e : emitters_) strengthBefore_.push_back(strengthBefore_.back() + e.power());
 }
 
-/// Moves emitters so that the first ones, as many as it returns, lie together and the others do: parted
-/// across an axis where the mean square distances from the centres of both parts, weighted by power, are
-/// least (Otsu's threshold), to one of kBins slices.
+/// Parts emitters in two across an axis, at one of kBins places: where their mean square distance from the
+/// centre of their part, weighted by power, is least (Otsu's threshold). Returns how many are in the first.
 std::uint32_t AreaLights::split(std::uint32_t first, std::uint32_t count) {
   constexpr int kBins = 32;
   struct Bin {

@@ -39,7 +39,7 @@ constexpr double kSlicePixels = 2e5;
 constexpr std::size_t kTimedRegions = 8;  ///< whose test eyes are found
 constexpr std::size_t kTimedViews = 8;    ///< what eyes see, as finely as a bake looks
 constexpr double kBriefly = 10;           ///< so many times fewer of all these, where it is to be brief
-constexpr std::size_t kBriefSlices = 3;   ///< cameras that tell of bytes, where it is to be brief
+constexpr std::size_t kBriefSlices = 3;   ///< cameras that tell of bytes where it is: as many as tell of pace
 
 /// With which cameras are probed: maps of what eyes see that do for few pixels (more is traced along edges),
 /// and little gathering, since a part would gather nearly all for itself alone. Colours are then rougher by
