@@ -164,8 +164,31 @@ std::set<CellId> splitsOf(const Layout& layout) {
   return splits;
 }
 
-/// The same layout with fewer splits and removals: none beyond the outline, and one removal for a region all
-/// of whose parts are left out.
+int leastLevelOf(const Layout& layout) {
+  int least = kMaxLevel;
+  for (const Region& region : layout.regions) least = std::min(least, region.id.level);
+  return layout.regions.empty() ? 0 : least;
+}
+
+/// The same layout of cells half as large: no region is whole.
+LayoutSpec halved(const LayoutSpec& spec) {
+  const auto finer = [](const CellId& id) { return CellId{id.i, id.j, id.slot, id.level - 1}; };
+  LayoutSpec half = spec;
+  half.cellSize /= 2;
+  half.latticeOrigin += cellPolygon(spec, {0, 0, 0, 1}).centroid() - cellPolygon(half, {0, 0, 0}).centroid();
+  half.split.clear(), half.removed.clear();
+  for (const CellId& id : spec.split)
+    if (id.level > 0) half.split.insert(finer(id));
+  for (const CellId& id : spec.removed)
+    if (id.level > 0)
+      half.removed.insert(finer(id));
+    else
+      for (const CellId& part : partsOf(spec, id)) half.removed.insert(finer(part));
+  return half;
+}
+
+/// The same layout with fewer splits and removals: none beyond the outline, none that all cells have in
+/// common, and one removal for a region all of whose parts are left out.
 Result<LayoutSpec> withoutIdleChoices(const LayoutSpec& spec) {
   const auto layout = buildLayout(spec);
   if (!layout) return tl::unexpected(layout.error());
@@ -177,6 +200,7 @@ Result<LayoutSpec> withoutIdleChoices(const LayoutSpec& spec) {
   };
   for (const CellId& id : spec.split)
     if (!fewer.split.contains(id)) fewer.removed.insert(id);  // no region comes from it
+  for (int level = leastLevelOf(*layout); level > 0; --level) fewer = halved(fewer);
   std::erase_if(fewer.removed, [&](const CellId& id) { return !lies(id); });
   return fewer;
 }

@@ -314,6 +314,8 @@ TEST(FirstCells, AreLaidWhereSomethingStandsAboutOnGroundThatIsTooLarge) {
   EXPECT_GT(served, 0.97 * laidOut) << "what no region serves is not laid out";
   for (const std::set<CellId>& choices : {kept->split, kept->removed})
     for (const CellId& id : choices) EXPECT_TRUE(kept->outline.overlaps(cellPolygon(*kept, id)));
+  const auto isWhole = [](const Region& region) { return region.id.level == 0; };
+  EXPECT_TRUE(std::ranges::any_of(layout->regions, isWhole)) << "cells are as large as the largest";
   limit.chooseConfiguration = false;
   const auto hexagons = keepWithin(spec, limit, world.bounds(), false, world.probe());
   ASSERT_TRUE(hexagons) << hexagons.error().describe();
