@@ -187,24 +187,6 @@ LayoutSpec halved(const LayoutSpec& spec) {
   return half;
 }
 
-/// The same layout with fewer splits and removals: none beyond the outline, none that all cells have in
-/// common, and one removal for a region all of whose parts are left out.
-Result<LayoutSpec> withoutIdleChoices(const LayoutSpec& spec) {
-  const auto layout = buildLayout(spec);
-  if (!layout) return tl::unexpected(layout.error());
-  LayoutSpec fewer = spec;
-  fewer.split = splitsOf(*layout);
-  const auto lies = [&](const CellId& id) {
-    return (id.level == 0 || fewer.split.contains(wholeOf(fewer, id))) &&
-           fewer.outline.overlaps(cellPolygon(fewer, id));
-  };
-  for (const CellId& id : spec.split)
-    if (!fewer.split.contains(id)) fewer.removed.insert(id);  // no region comes from it
-  for (int level = leastLevelOf(*layout); level > 0; --level) fewer = halved(fewer);
-  std::erase_if(fewer.removed, [&](const CellId& id) { return !lies(id); });
-  return fewer;
-}
-
 tl::unexpected<Error> tooFew(std::size_t cameras) {
   return fail(ErrorKind::invalidArgument,
               fmt::format("{} cameras are too few for a single region; allow more (--max-cameras)", cameras));
@@ -244,6 +226,22 @@ NearGroundOptions lookingFor(const LayoutSpec& spec, const FirstLayoutLimit& lim
 }
 
 }  // namespace
+
+Result<LayoutSpec> withoutIdleChoices(const LayoutSpec& spec) {
+  const auto layout = buildLayout(spec);
+  if (!layout) return tl::unexpected(layout.error());
+  LayoutSpec fewer = spec;
+  fewer.split = splitsOf(*layout);
+  const auto lies = [&](const CellId& id) {
+    return (id.level == 0 || fewer.split.contains(wholeOf(fewer, id))) &&
+           fewer.outline.overlaps(cellPolygon(fewer, id));
+  };
+  for (const CellId& id : spec.split)
+    if (!fewer.split.contains(id)) fewer.removed.insert(id);  // no region comes from it
+  for (int level = leastLevelOf(*layout); level > 0; --level) fewer = halved(fewer);
+  std::erase_if(fewer.removed, [&](const CellId& id) { return !lies(id); });
+  return fewer;
+}
 
 std::pair<glm::dvec2, glm::dvec2> extentOf(const Outline& outline) {
   glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());

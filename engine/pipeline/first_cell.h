@@ -85,6 +85,10 @@ struct FittedCells {
 FittedCells fitCells(const LayoutSpec& pattern, const NearGround& ground, const CellRules& rules,
                      const FreePlace& isFree, double size, int steps);
 
+/// The same layout with fewer splits and removals: none beyond the outline, none that all cells have in
+/// common, which are then smaller, and one removal for a region all of whose parts are left out.
+Result<LayoutSpec> withoutIdleChoices(const LayoutSpec& spec);
+
 /// The most of the ground, in the order of its ways, that a layout of this pattern has no more cameras for;
 /// without what its regions do not serve. Nothing if the least has more.
 std::optional<Outline> largestOutline(const LayoutSpec& pattern, const NearGround& ground,

@@ -183,6 +183,46 @@ TEST(FirstCells, HaveTheirCornersAndMiddlesWhereOneMayStand) {
   }
 }
 
+std::set<std::pair<int, int>> middlesOf(const LayoutSpec& spec) {
+  std::set<std::pair<int, int>> middles;  // centimetres
+  const auto layout = buildLayout(spec);
+  EXPECT_TRUE(layout);
+  for (const Region& region : layout->regions) {
+    const glm::dvec2 middle = glm::round(100.0 * region.polygon.centroid());
+    middles.emplace(int(middle.x), int(middle.y));
+  }
+  return middles;
+}
+
+TEST(FirstCells, AreAsSmallAsTheLargestOfThemAreWhereAllAreSplit) {
+  for (const Configuration configuration : {Configuration::e, Configuration::g}) {
+    LayoutSpec spec;
+    spec.configuration = configuration;
+    spec.cellSize = 12;
+    spec.rotationRadians = 0.3;
+    spec.latticeOrigin = {1.2, -0.7};
+    spec.outline = parseOutline("-14,-9;17,-9;17,13;-14,13").value();
+    const auto whole = buildLayout(spec);
+    ASSERT_TRUE(whole);
+    for (const Region& region : whole->regions) spec.split.insert(region.id);
+    const auto halves = buildLayout(spec);
+    ASSERT_TRUE(halves);
+    const CellId split = halves->regions[1].id, left = halves->regions[2].id;
+    spec.split.insert(split), spec.removed.insert(left);
+    spec.removed.insert(whole->regions.back().id);
+    const auto kept = withoutIdleChoices(spec);
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->cellSize, 6);
+    EXPECT_EQ(kept->split, std::set({CellId{split.i, split.j, split.slot, 0}}));
+    EXPECT_TRUE(kept->removed.contains({left.i, left.j, left.slot, 0}));
+    EXPECT_EQ(middlesOf(*kept), middlesOf(spec)) << nameOf(configuration);
+    spec.split.erase(whole->regions[whole->regions.size() / 2].id);
+    const auto mixed = withoutIdleChoices(spec);
+    ASSERT_TRUE(mixed) << mixed.error().describe();
+    EXPECT_EQ(mixed->cellSize, 12) << "one is whole";
+  }
+}
+
 /// A street 10 m wide and one of 5 m that crosses it.
 TEST(FirstCells, AreFittedToStreets) {
   NearGround ground = narrowingFloor();
