@@ -122,7 +122,7 @@ bool drawRow(PanelContext& context, const Row& row) {
 void drawProposal(PanelContext& context, const SizeProposal& proposal) {
   const double samples = proposal.bake.samplesPerDegree;
   if (samples == context.session().project().bake.samplesPerDegree)
-    return ui::mutedText(trf("The project is so: {:.4g} samples per degree", samples));
+    return ui::mutedText(trf("Applied: {:.4g} samples per degree", samples));
   ui::wrappedText(proposal.far() ? ui::palette::warning : ui::palette::text,
                   trf("{}{:.4g} samples per degree: about {}, {}",
                       proposal.far() ? tr("The nearest that captures come: ") : "", samples,
