@@ -45,7 +45,7 @@ BakeShare missingOf(const OpenProject& open, const BakeRequest& request);
 BakeShare missingOf(const OpenProject& open, const BakeRequest& request, const CaptureStore& store);
 
 struct BakeForecastOptions {
-  /// Takes a second or two, and may be wrong by half as much again; else as exact as estimateProjectBake().
+  /// Takes some seconds, and may be wrong by half as much again; else as exact as estimateProjectBake().
   bool brief = true;
   bool glance = false;                             ///< with brief: of fewer probes still, twice as wrong
   double effort = 1;                               ///< of all shares together, where it is not brief
