@@ -48,7 +48,8 @@ class SessionTest : public testing::Test {
     options.autosaveSeconds = 0;
     return options;
   }
-  /// Lets jobs work until `done`; fails after five minutes, and on errors that are told, but for `expected` ones.
+  /// Lets jobs work until `done`; fails after five minutes, and on errors that are told, but for `expected`
+  /// ones.
   void waitFor(Session& session, const std::function<bool()>& done, const std::string& expected = {}) {
     for (int i = 0; i < 60000 && !done(); ++i) {
       session.poll(now_);
