@@ -157,15 +157,14 @@ void drawFacts(PanelContext& context) {
   }
   if (const BakeEstimate* estimate = session.estimate(); estimate != nullptr && !session.baking().running()) {
     const double error = std::max(estimate->seconds.relativeError, estimate->bytes.relativeError);
-    ui::mutedText(tr("Still to bake"));
-    ImGui::SameLine(ui::scaled(kValueX));
-    ui::wrappedText(
-        ui::palette::text,
+    ui::keyValue(
+        tr("Still to bake"),
         estimate->seconds.value == 0
             ? std::string(tr("nothing"))
             : trf("{} captures: about {}, {} (±{:.0f} %)", ui::formatCount(std::uint64_t(estimate->cameras)),
                   ui::formatDuration(estimate->seconds.value),
-                  ui::formatBytes(std::uint64_t(estimate->bytes.value)), 100 * error));
+                  ui::formatBytes(std::uint64_t(estimate->bytes.value)), 100 * error),
+        kValueX);
     ui::tooltip(trf("{:.1f} million pixels, {:.1f} million samples", estimate->pixels / 1e6,
                     estimate->samples.value / 1e6));
   }

@@ -60,6 +60,8 @@ std::vector<const PlacementFinding*> toMend(const PlacementReport& report) {
   return findings;
 }
 
+ProblemFix fitCells() { return {tr("Fit cells"), RunAction{"layout.fit"}}; }
+
 /// `region` uses the cameras of the finding, or is what it is about; null: none is known.
 std::optional<ProblemFix> fixOf(const PlacementFinding& finding, const Region* region, bool withoutRoom) {
   if (region != nullptr && region->id.slot == kFreeSlot) {
@@ -69,7 +71,7 @@ std::optional<ProblemFix> fixOf(const PlacementFinding& finding, const Region* r
   }
   if (finding.panorama) return ProblemFix{tr("Add a panorama"), AddPanorama{*finding.panorama}};
   if (region != nullptr && withoutRoom) return ProblemFix{tr("Remove the cell"), RemoveCell{region->id}};
-  return ProblemFix{tr("Fit cells"), RunAction{"layout.fit"}};
+  return fitCells();
 }
 
 void addPlacement(Problems& problems, const Inspection& inspection) {
@@ -87,7 +89,7 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
           {std::ranges::max(worst, {}, &PlacementFinding::severity)->severity,
            trf("Cameras or cells stand badly in {} places: fit them all at once", worst.size()),
            {.look = PlanLook::checks},
-           ProblemFix{tr("Fit cells"), RunAction{"layout.fit"}}});
+           fitCells()});
     const std::size_t listed = std::min(worst.size(), kMostOfAKind);
     for (const PlacementFinding* finding : std::span(worst).first(listed)) {
       const int of = finding->region >= 0        ? finding->region

@@ -191,7 +191,6 @@ void Session::savedNow() {
   history_->markSaved();
   savedStamp_ = stampOf(file_);
   projectFileChanged_ = false;
-  autosaved_.reset();
   if (!lock_) takeLock(true);
   remember(file_);
   messages_.add(MessageLevel::good, trf("Saved {}", file_.filename().string()));
@@ -304,6 +303,7 @@ void Session::forgetAutosave() {
   if (const fs::path own = autosaveFile(); !own.empty()) fs::remove(own, error);
   if (!recovered_.empty()) fs::remove(recovered_, error);
   recovered_.clear();
+  autosaved_.reset();
 }
 
 void Session::lookForAutosave() {
@@ -331,7 +331,7 @@ void Session::lookForAutosave() {
 
 void Session::autosave(double now) {
   // What it held was undone: there is nothing to recover.
-  if (!dirty() && autosaved_ && recovered_.empty()) forgetAutosave(), autosaved_.reset();
+  if (autosaved_ && recovered_.empty() && !dirty()) forgetAutosave();
   if (!worthAsking() || now < nextAutosave_) return;
   nextAutosave_ = now + options_.autosaveSeconds.value_or(preferences_.autosaveSeconds);
   keepWork();

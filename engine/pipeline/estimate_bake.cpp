@@ -202,22 +202,19 @@ class ProjectProber final : public BakeProber {
     const double wanted = std::max(kFewestProbePixels, kProbePixelsPerThread * runner_.threads()) / fewer_;
     const double thinning = double(whole.columns) * whole.rows / wanted;
     probes_.push_back({});
-    if (thinning < 2) return traceTrial(camera, whole);
+    if (thinning < 2) return traceTrial(camera, whole, {});
     // Columns spread over all of it tell of samples and time, some side by side of the file.
     ColumnCamera fewColumns = whole;
     const int evenly = kColumnsPerThread * runner_.threads();
     fewColumns.columns =
         std::clamp(int(std::lround(whole.columns / thinning / evenly)) * evenly, 1, whole.columns);
-    auto first = bake(camera, fewColumns);
-    if (!first) return tl::unexpected(first.error());
-    const auto spread = count(camera, fewColumns, *first);
-    if (!spread || (brief_ && probes_.size() > kBriefSlices)) return spread;
-    double traced = *spread;
+    auto traced = traceTrial(camera, fewColumns, {.written = false});
+    if (!traced || (brief_ && probes_.size() > kBriefSlices)) return traced;
     for (const ColumnCamera& slice : slicesOf(whole, kProbeColumns, wanted, probes_.size())) {
       // A slice has many more pixels than a brief estimate counts.
-      const auto rays = brief_ ? writeTrial(camera, slice) : traceTrial(camera, slice);
+      const auto rays = traceTrial(camera, slice, {.counted = !brief_});
       if (!rays) return rays;
-      traced += *rays;
+      *traced += *rays;
     }
     return traced;
   }
@@ -351,39 +348,34 @@ class ProjectProber final : public BakeProber {
     return traced;
   }
 
-  /// Counts it, and writes it, which tells of bytes. Rays of all purposes.
-  Result<double> traceTrial(int camera, const ColumnCamera& columns) {
-    auto first = bake(camera, columns);
-    if (!first) return tl::unexpected(first.error());
-    const auto traced = count(camera, columns, *first);
-    if (!traced) return traced;
-    if (Status put = write(std::move(first->capture)); !put) return tl::unexpected(put.error());
-    return traced;
-  }
-  Result<double> writeTrial(int camera, const ColumnCamera& columns) {
-    auto first = bake(camera, columns);
-    if (!first) return tl::unexpected(first.error());
-    if (Status put = write(std::move(first->capture)); !put) return tl::unexpected(put.error());
-    return double(first->counts.rays.total());
-  }
-  Status write(Capture&& capture) { return writer_->put({0, probes_.size() - 1}, std::move(capture)); }
-
+  /// What a trial tells of: pixels, samples, rays and time where it is counted, bytes where it is written.
+  struct Telling {
+    bool counted = true, written = true;
+  };
   /// Rays of all purposes.
-  Result<double> count(int camera, const ColumnCamera& columns, const Traced& first) {
-    const RayCounts& rays = first.counts.rays;
-    double seconds = first.seconds, traced = double(rays.total());
-    if (rays.gathered > 0) {  // now that it is there, what the rest takes
-      const auto again = bake(camera, columns);
-      if (!again) return tl::unexpected(again.error());
-      seconds = again->seconds;
-      traced += double(again->counts.rays.total());
+  Result<double> traceTrial(int camera, const ColumnCamera& columns, Telling of) {
+    auto first = bake(camera, columns);
+    if (!first) return tl::unexpected(first.error());
+    const RayCounts& rays = first->counts.rays;
+    double seconds = first->seconds, traced = double(rays.total());
+    if (of.counted) {
+      if (rays.gathered > 0) {  // now that it is there, what the rest takes
+        const auto again = bake(camera, columns);
+        if (!again) return tl::unexpected(again.error());
+        seconds = again->seconds;
+        traced += double(again->counts.rays.total());
+      }
+      CaptureProbe& probe = probes_.back();
+      probe.pixels += double(columns.columns) * columns.rows;
+      probe.samples += double(first->capture.sampleCount());
+      // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is
+      // probed.
+      probe.rays += double(rays.total() - rays.visibility - rays.gathered);
+      probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
     }
-    CaptureProbe& probe = probes_.back();
-    probe.pixels += double(columns.columns) * columns.rows;
-    probe.samples += double(first.capture.sampleCount());
-    // Less what the regions' eyes look at: a camera shares that with its neighbours, whatever part is probed.
-    probe.rays += double(rays.total() - rays.visibility - rays.gathered);
-    probe.traceSeconds += std::max(0.0, seconds - overhead_.traceSeconds);
+    if (of.written)
+      if (Status put = writer_->put({0, probes_.size() - 1}, std::move(first->capture)); !put)
+        return tl::unexpected(put.error());
     return traced;
   }
 
