@@ -40,7 +40,8 @@ std::string formatDuration(double seconds) {
 
 std::string formatArea(double squareMetres) {
   if (squareMetres >= 1e5) return fmt::format("{:.3g} km²", 1e-6 * squareMetres);
-  return squareMetres < 100 ? fmt::format("{:.1f} m²", squareMetres) : fmt::format("{:.0f} m²", squareMetres);
+  if (squareMetres < 100) return fmt::format("{:.1f} m²", squareMetres);
+  return formatCount(std::uint64_t(std::llround(squareMetres))) + " m²";
 }
 
 std::string formatMetres(double metres) {

@@ -61,7 +61,7 @@ void drawBakeCameras(PanelContext& context) {
     ui::wrappedText(ui::palette::faint, tr("The cameras of a bake are listed here while it runs."));
     return;
   }
-  const bool severalStoreys = queue.cameras().back().storey > 0;
+  const bool severalStoreys = queue.cameras().front().storey != queue.cameras().back().storey;
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
   if (!ImGui::BeginTable("##cameras", 3, kFlags)) return;
   ImGui::TableSetupScrollFreeze(0, 1);

@@ -45,7 +45,7 @@ void drawProgress(PanelContext& context) {
 void drawPace(PanelContext& context) {
   Session& session = context.session();
   const BakeQueue& queue = session.bakeQueue();
-  ui::keyValue(tr("Now"), session.bakePaused() ? tr("paused") : progressText(session.baking()), kValueX);
+  ui::keyValue(tr("Now"), session.bakePaused() ? tr("paused") : bakeProgressText(session), kValueX);
   std::string pace;
   if (const auto rays = queue.raysPerSecond(); rays && !session.bakePaused())
     pace = trf("{:.2f} million rays/s", *rays / 1e6);
@@ -78,6 +78,20 @@ void drawForecast(const Session& session) {
         trf("Estimated when the bake began, for {} (±{:.0f} %). The memory is that of captures "
             "until they are written; the scene comes on top.",
             threadsText(forecast->threads), 100 * forecast->relativeError));
+}
+
+/// What is edited during a bake is for the next.
+void drawOutdated(const Session& session) {
+  const int outdated = session.outdatedInBake();
+  if (outdated == 0) return;
+  ui::mutedText(tr("Edited since"));
+  ImGui::SameLine(ui::scaled(kValueX));
+  ui::wrappedText(
+      ui::palette::warning,
+      trfMany("{} capture of this bake is no longer used. Cancel, then bake the project as it is.",
+              "{} captures of this bake are no longer used. Cancel, then bake the project as it "
+              "is.",
+              std::uint64_t(outdated), ui::formatCount(std::uint64_t(outdated))));
 }
 
 void drawDisk(Session& session) {
@@ -119,6 +133,7 @@ void drawFacts(PanelContext& context) {
   const CaptureStatus* captures = session.captures().get();
   if (session.baking().running()) {
     drawForecast(session);
+    drawOutdated(session);
     drawPace(context);
   }
   if (captures != nullptr) {
@@ -234,6 +249,18 @@ std::string progressText(const Job& job) {
   if (progress.total > 1 && progress.stage.find(" of ") == std::string::npos)
     text += trf(", {:.0f} of {:.0f}", progress.done, progress.total);
   return text;
+}
+
+std::string bakeProgressText(const Session& session) {
+  const BakeQueue& queue = session.bakeQueue();
+  if (queue.cameras().empty()) return progressText(session.baking());
+  const QueuedCamera& camera = queue.cameras()[queue.current()];
+  if (camera.stage != CameraStage::tracing || camera.previewing) return progressText(session.baking());
+  const std::string text = trf("baking camera {} ({} of {})", camera.camera,
+                               std::min(queue.finished() + 1, queue.toBake()), queue.toBake());
+  const auto& storeys = session.project().storeys;
+  const bool named = storeys.size() > 1 && std::size_t(camera.storey) < storeys.size();
+  return named ? storeys[std::size_t(camera.storey)].name + ": " + text : text;
 }
 
 double progressFraction(const Job& job) {

@@ -64,7 +64,7 @@ void PlanPanel::drawLayout(PanelContext& context, ImDrawList& list, const std::o
   const bool lattice = !session.shippedWalk();  // which has none
   if (lattice && (state.showLattice || context.log.on())) freeCells_.update(open.layout, view_);
   if (lattice && state.showLattice && !tried) freeCells_.draw(list, view_);
-  if (BakeMarks marks = bakeMarks(session.bakeQueue(), session.project().storey); marks != *marks_)
+  if (BakeMarks marks = bakeMarks(session.bakeQueue(), open.keys); marks != *marks_)
     marks_ = std::make_shared<const BakeMarks>(std::move(marks));
   layers_.update({open.layout, session.captures(), marks_, state.overlay,
                   state.overlay == PlanOverlay::triangles ? session.inspection() : nullptr,

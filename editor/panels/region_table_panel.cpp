@@ -77,7 +77,7 @@ void RegionTablePanel::update(PanelContext& context) {
   coverage_ = coverage;
   std::vector<BakeState> states;
   if (captures_ && captures_->cameras.size() == layout->cameras.size())
-    states = regionStates(*layout, *captures_, bakeMarks(session.bakeQueue(), session.project().storey));
+    states = regionStates(*layout, *captures_, bakeMarks(session.bakeQueue(), session.built()->keys));
   rows_ = regionRows(*layout, captures_.get(), states, inspection.get(), coverage.get());
   sorted_ = false;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <algorithm>
-
 #include "editor/panels/bake_panel.h"
 #include "editor/panels/problems_panel.h"
 #include "editor/panels/walk_facts.h"
@@ -61,6 +59,19 @@ constexpr const char* kSceneHint = trLater(
     " "
     "Alt+click asks a surface, double click centres or opens a camera");
 
+constexpr const char* kWalkHint = trLater(
+    "WASD walks, dragging looks around   ·   right click for what can be done here   ·   Alt+click asks what "
+    "painted a pixel");
+
+const char* hintOf(const EditorState& state) {
+  const bool walk = state.whole == WholeView::walk || (state.walkPointed && state.whole == WholeView::none);
+  const PlanMode mode = state.planTool.mode();
+  if (walk) return tr(kWalkHint);
+  if (state.centreView == View::accuracy) return tr(kAccuracyHint);
+  if (state.centreView == View::scene3d && mode == PlanMode::cells) return tr(kSceneHint);
+  return hintOf(mode, !state.selection.empty());
+}
+
 /// The first that runs, of those that are worth waiting for; null if none.
 const Job* workOf(const Session& session) {
   const Job* jobs[] = {&session.opening(),         &session.rebuilding(),        &session.baking(),
@@ -89,7 +100,10 @@ void drawShare(double share) {
 void drawWork(const Session& session, const Job& job) {
   const bool baking = &job == &session.baking();
   const bool paused = baking && session.bakePaused();
-  std::string text = paused ? tr("bake paused") : job.cancelling() ? tr("stopping…") : progressText(job);
+  std::string text = paused             ? tr("bake paused")
+                     : job.cancelling() ? tr("stopping…")
+                     : baking           ? bakeProgressText(session)
+                                        : progressText(job);
   ui::badge(paused ? ui::palette::warning : ui::palette::accent, text);
   const double share =
       baking && !session.bakeQueue().cameras().empty() ? session.bakeQueue().share() : progressFraction(job);
@@ -134,14 +148,8 @@ void drawStatusBar(PanelContext& context) {
   drawProblemCount(context);
   ImGui::SameLine(0, 2 * margin);
   // What has no room is left out: the file first, then the hint.
-  const View view = context.state().centreView;
   const std::string& readout = context.state().scene3d.readout;
-  const bool inScene = view == View::scene3d && context.state().planTool.mode() == PlanMode::cells;
-  const char* hint = !readout.empty() ? readout.c_str()
-                     : inScene        ? tr(kSceneHint)
-                     : view == View::accuracy
-                         ? tr(kAccuracyHint)
-                         : hintOf(context.state().planTool.mode(), !context.state().selection.empty());
+  const char* hint = readout.empty() ? hintOf(context.state()) : readout.c_str();
   const float from = std::max(ImGui::GetCursorPosX(), ui::scaled(324));
   const float to = ImGui::GetWindowSize().x - margin;
   const float hintEnd = from + ImGui::CalcTextSize(hint).x;

@@ -200,6 +200,7 @@ void WalkPanel::draw(PanelContext& context) {
   const ImVec2 density = ImGui::GetIO().DisplayFramebufferScale;  // pixels of the screen; above 1 on Wayland
   area_ = {int(size.x * density.x), int(size.y * density.y)};
   ImGui::InvisibleButton("##walk", size);
+  context.state().walkPointed = ImGui::IsItemHovered();
   context.log.item("walk");
   if (!context.session().built()) {
     ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},

@@ -12,12 +12,13 @@
 
 #include "editor/session/eta.h"
 #include "engine/bake/bake_watch.h"
+#include "engine/base/hash.h"
 
 namespace acentric::editor {
 
 struct QueuedCamera {
-  int storey = 0;
-  int camera = 0;  ///< of the storey's layout
+  int storey = 0;  ///< of the project
+  int camera = 0;  ///< of the storey's layout as it was when the bake began
   double pixels = 0;
   CameraStage stage = CameraStage::waiting;
   bool previewing = false;  ///< what is being traced or written is its preview
@@ -25,6 +26,7 @@ struct QueuedCamera {
   double traced = 0;        ///< share of its columns, while it is traced
   double seconds = 0;       ///< of tracing
   std::string error = {};   ///< why it failed
+  ContentKey key = {};      ///< of its capture
 };
 
 class BakeQueue {

@@ -1,6 +1,7 @@
 #include "editor/session/capture_status.h"
 
 #include <algorithm>
+#include <set>
 
 #include "engine/base/contract.h"
 #include "engine/pipeline/bake_plan.h"
@@ -64,16 +65,18 @@ CaptureStatus emptyStatus(const Layout& layout) {
                                 std::vector<std::uint64_t>(cameras, 0)});
 }
 
-BakeMarks bakeMarks(const BakeQueue& queue, int storey) {
-  BakeMarks marks;
+BakeMarks bakeMarks(const BakeQueue& queue, const std::vector<ContentKey>& keys) {
+  std::set<ContentKey> baking, failed;
   for (const QueuedCamera& row : queue.cameras()) {
-    if (row.storey != storey) continue;
-    if (row.stage == CameraStage::tracing || row.stage == CameraStage::writing)
-      marks.baking.push_back(row.camera);
-    if (row.stage == CameraStage::failed) marks.failed.push_back(row.camera);
+    if (row.stage == CameraStage::tracing || row.stage == CameraStage::writing) baking.insert(row.key);
+    if (row.stage == CameraStage::failed) failed.insert(row.key);
   }
-  std::ranges::sort(marks.baking);
-  std::ranges::sort(marks.failed);
+  BakeMarks marks;
+  if (baking.empty() && failed.empty()) return marks;
+  for (std::size_t camera = 0; camera < keys.size(); ++camera) {
+    if (baking.contains(keys[camera])) marks.baking.push_back(int(camera));
+    if (failed.contains(keys[camera])) marks.failed.push_back(int(camera));
+  }
   return marks;
 }
 

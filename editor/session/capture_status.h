@@ -36,12 +36,13 @@ CaptureStatus captureStatus(const Layout& layout, CapturesOnDisk there);
 /// Of a layout that nothing is known of yet.
 CaptureStatus emptyStatus(const Layout& layout);
 
-/// Cameras of a storey that a bake is at, or could not bake; in order.
+/// Cameras that a bake is at, or could not bake; in order.
 struct BakeMarks {
   std::vector<int> baking, failed;
   bool operator==(const BakeMarks&) const = default;
 };
-BakeMarks bakeMarks(const BakeQueue& queue, int storey);
+/// `keys`: of the captures of a layout, which may have been edited since the bake began.
+BakeMarks bakeMarks(const BakeQueue& queue, const std::vector<ContentKey>& keys);
 
 /// The regions' states while a bake runs.
 std::vector<BakeState> regionStates(const Layout& layout, const CaptureStatus& status,

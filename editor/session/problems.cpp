@@ -77,7 +77,6 @@ std::optional<ProblemFix> fixOf(const PlacementFinding& finding, const Region* r
 void addPlacement(Problems& problems, const Inspection& inspection) {
   const Layout& layout = *inspection.layout;
   const auto& findings = inspection.placement.findings;
-  const std::size_t notes = std::size_t(inspection.placement.count(Severity::note));
   const std::vector<const PlacementFinding*> worst = toMend(inspection.placement);
   if (!worst.empty()) {
     const std::vector<int> regionOf = regionsOfCameras(layout);
@@ -108,12 +107,6 @@ void addPlacement(Problems& problems, const Inspection& inspection) {
       problems.push_back(std::move(problem));
     }
   }
-  const std::size_t suffice = std::size_t(std::ranges::count(findings, true, &PlacementFinding::suffices));
-  if (const std::size_t looks = notes - suffice; looks > 0)
-    problems.push_back({Severity::note,
-                        trfMany("{} centre or cell is worth a look in the placement checks",
-                                "{} centres or cells are worth a look in the placement checks", looks, looks),
-                        {.look = PlanLook::checks}});
 }
 
 void addBudget(Problems& problems, const Inspection& inspection, const TriangleBudget& budget) {

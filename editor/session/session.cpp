@@ -215,6 +215,7 @@ void Session::show(OpenProject open) {
   const bool sameLayout = built_ && built_->layout == open.layout;
   open.file = file_;
   built_ = std::make_shared<const OpenProject>(std::move(open));
+  compareWithBake();
   // What is baked is asked of the disk in the background; until then regions of a new layout count as
   // missing.
   if (!sameLayout || !captures_)

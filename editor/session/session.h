@@ -206,13 +206,15 @@ class Session {
   /// What the bake that runs, or ran last, was to take: known a second or two after it was begun, before the
   /// first camera.
   const std::optional<BakeForecast>& bakeForecast() const { return bakeForecast_; }
+  /// Of the captures that the running bake is for, how many the project no longer uses as it was edited since.
+  int outdatedInBake() const { return baking_.running() ? outdatedInBake_ : 0; }
   /// Of the bake that runs: by its pace, or by the forecast while that is not known.
   std::optional<double> bakeSecondsLeft() const;
   /// Of what the current storey lacks, by baking a little of it.
   void estimateBake();
   /// The same of fewer probes, for a first idea.
   void glanceAtBake();
-  /// Null until asked for, and when something has changed since.
+  /// Null until asked for, when something has changed since, and after a glance once bakeCosts() knows better.
   const BakeEstimate* estimate() const;
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
   const EffectCosts* effectCosts() const;
@@ -327,8 +329,12 @@ class Session {
   void dropStream();
   void drawBackdropIfStale();
   void inspectIfStale();
+  /// Of the project as it is set, with as many threads; null: not known (yet).
+  const BakeCost* costAsSet() const;
   /// What the last estimate, or else the costs of settings, say of all that there is to bake.
   std::optional<BakeForecast> knownForecast() const;
+  /// Counts the captures of the running bake that the project, just edited, no longer uses.
+  void compareWithBake();
   void bakeEnded(const Result<ProjectBakeReport>& report);
   Result<ProjectBakeReport> bakeStoreys(const OpenProject& open, const std::optional<glm::dvec2>& from,
                                         const std::optional<BakeForecast>& known, std::size_t memoryBytes,
@@ -452,11 +458,13 @@ class Session {
     int threads = 0;
     BakeEstimate figures;
     EffectCosts costs;
+    bool glance = false;
   };
   void estimateBake(bool glance);
   std::optional<Estimate> estimate_;
   std::optional<BakeForecast> bakeForecast_;
   BakeQueue bakeQueue_;
+  int outdatedInBake_ = 0;
   std::optional<std::uint64_t> freeBytes_;
   std::optional<double> neededBytes_;
   double nextLookAtDisk_ = 0, now_ = 0;

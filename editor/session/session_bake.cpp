@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 #include "editor/session/engine_texts.h"
 #include "editor/session/session.h"
@@ -42,8 +43,11 @@ std::vector<QueuedCamera> queueOf(const StoreysToBake& plan) {
       const ColumnCamera columns =
           columnCameraFor(open.layout->cameras[std::size_t(camera)], open.layout->eyeZ(),
                           open.layout->spec.nearBand, open.scene->bounds, open.project.bake);
-      queue.push_back({int(s), camera, double(columns.columns) * columns.rows,
-                       baked[std::size_t(camera)] ? CameraStage::reused : CameraStage::waiting});
+      queue.push_back({.storey = open.project.storey,
+                       .camera = camera,
+                       .pixels = double(columns.columns) * columns.rows,
+                       .stage = baked[std::size_t(camera)] ? CameraStage::reused : CameraStage::waiting,
+                       .key = open.keys[std::size_t(camera)]});
     }
   }
   return queue;
@@ -85,6 +89,13 @@ class NewsGate {
 
 }  // namespace
 
+void Session::compareWithBake() {
+  const std::set<ContentKey> used(built_->keys.begin(), built_->keys.end());
+  outdatedInBake_ = int(std::ranges::count_if(bakeQueue_.cameras(), [&](const QueuedCamera& camera) {
+    return camera.storey == built_->project.storey && !used.contains(camera.key);
+  }));
+}
+
 int Session::bakeThreads() const {
   const int wanted = preferences_.bakeThreads > 0 ? preferences_.bakeThreads : processors_ - 1;
   return std::clamp(wanted, 1, processors_);
@@ -97,6 +108,7 @@ void Session::startBake(const std::optional<glm::dvec2>& from, bool takeOver) {
   bakeForecast_.reset();
   neededBytes_.reset();
   bakeGate_.open();
+  outdatedInBake_ = 0;
   baking_.restart(
       tr("Baking"), [this, open = built_, from, takeOver, known = knownForecast(), threads = bakeThreads(),
                      memory = std::size_t(preferences_.bakeMegabytes) * 1'000'000,
@@ -129,7 +141,10 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
                                                const Job::Context& context) {
   const auto plan = planStoreys(open, from, host, context.stop());
   if (!plan) return tl::unexpected(plan.error());
-  context.post([this, queue = queueOf(*plan)] { bakeQueue_.begin(queue); });
+  context.post([this, queue = queueOf(*plan)] {
+    bakeQueue_.begin(queue);
+    compareWithBake();
+  });
   const auto forecast = predict(*plan, known, memoryBytes, runner, context);
   if (!forecast) return tl::unexpected(forecast.error());
   context.post([this, told = *forecast] {
@@ -152,7 +167,8 @@ Result<ProjectBakeReport> Session::bakeStoreys(const OpenProject& open, const st
     request.cameras = plan->order[s];
     request.mayGoOn = [&] { return guard.check(); };
     request.watch = [&, gate = std::make_shared<NewsGate>()](const CameraNews& news) {
-      if (gate->open(news)) context.post([this, s, news] { bakeQueue_.tell(now_, int(s), news); });
+      if (gate->open(news))
+        context.post([this, s = storey.project.storey, news] { bakeQueue_.tell(now_, s, news); });
     };
     const auto report = bakeProject(storey, request, runner, part, context.stop());
     if (!report) return report;
@@ -234,9 +250,9 @@ void Session::estimateBake(bool glance) {
     }
     const EffectCosts costs =
         measureEffectCosts(*open->rays, *open->layout, open->project.bake, context.stop());
-    context.post([this, open, threads, estimate, costs] {
+    context.post([this, glance, open, threads, estimate, costs] {
       if (!estimate) return messages_.addFailure(tr("Estimating the bake"), estimate.error());
-      estimate_ = Estimate{open, threads, *estimate, costs};
+      estimate_ = Estimate{open, threads, *estimate, costs, glance};
     });
   });
 }
@@ -245,15 +261,19 @@ const BakeEstimate* Session::estimate() const {
   const bool current = estimate_ && built_ && estimate_->of->keys == built_->keys &&
                        estimate_->of->surfaceLightKey == built_->surfaceLightKey &&
                        estimate_->threads == bakeThreads();
-  return current ? &estimate_->figures : nullptr;
+  return current && !(estimate_->glance && costAsSet()) ? &estimate_->figures : nullptr;
+}
+
+const BakeCost* Session::costAsSet() const {
+  const BakeCost* cost = bakeCosts_.of(project().bake);
+  return cost != nullptr && cost->forecast.threads == bakeThreads() ? cost : nullptr;
 }
 
 std::optional<BakeForecast> Session::knownForecast() const {
   const BakeEstimate* figures = estimate();
   if (figures == nullptr) {
-    const BakeCost* cost = bakeCosts_.of(project().bake);
-    const bool same = cost != nullptr && cost->forecast.threads == bakeThreads();
-    return same ? std::optional(cost->forecast) : std::nullopt;
+    const BakeCost* cost = costAsSet();
+    return cost != nullptr ? std::optional(cost->forecast) : std::nullopt;
   }
   BakeForecast forecast;
   forecast.cameras = figures->cameras;

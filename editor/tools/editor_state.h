@@ -144,6 +144,7 @@ struct EditorState {
   bool showMinimap = false;
   bool showImages = false;                 ///< beside the minimap: those that the picture is painted from
   std::optional<glm::dvec2> pointedFloor;  ///< plan; under the walk's pointer as its menu was opened
+  bool walkPointed = false;                ///< the pointer is over the walk, where that is shown
   bool asking = false;                     ///< a click on the walk asks what is there
   bool takePicture = false;                ///< asked for; the walk clears it
   bool fitPlan = true;                     ///< asked for; the plan clears it

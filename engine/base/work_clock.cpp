@@ -1,5 +1,8 @@
 #include "engine/base/work_clock.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -10,13 +13,16 @@ WorkClock::WorkClock() : atFirst_(threadsNow()) {}
 
 WorkClock::Threads WorkClock::threadsNow() {
   Threads threads;
+  const int priority = ::getpriority(PRIO_PROCESS, id_t(::gettid()));
   std::error_code error;
   for (std::filesystem::directory_iterator entry("/proc/self/task", error), end; !error && entry != end;
        entry.increment(error)) {
+    const std::string number = entry->path().filename().string();
+    if (::getpriority(PRIO_PROCESS, id_t(std::stoul(number))) != priority) continue;
     // Nanoseconds: on a processor, and ready to run on one.
     double running = 0, waiting = 0;
     if (std::ifstream file(entry->path() / "schedstat"); file >> running >> waiting)
-      threads[entry->path().filename().string()] = {1e-9 * running, 1e-9 * waiting};
+      threads[number] = {1e-9 * running, 1e-9 * waiting};
   }
   return threads;
 }

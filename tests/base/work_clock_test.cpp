@@ -9,6 +9,8 @@
 #include <ctime>
 #include <thread>
 
+#include "engine/base/priority.h"
+
 namespace acentric {
 namespace {
 
@@ -58,6 +60,27 @@ TEST(WorkClock, LeavesOutWhatOtherWorkTakes) {
   if (waited < 1.3 * own) GTEST_SKIP() << "the other process did not run";
   if (work == waited) GTEST_SKIP() << "the system does not tell of waiting threads";
   EXPECT_NEAR(work, own, 0.1 * own);
+}
+
+TEST(WorkClock, ThreadsOfAnotherPriorityDoNotCount) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
+  const std::jthread window([](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+    }
+  });
+  double work = 0, waited = 0, own = 0;
+  std::thread([&] {
+    lowerThreadPriority();
+    const Competitor competitor;
+    const WorkClock clock;
+    const Stopwatch wall;
+    const double begun = threadSeconds();
+    workFor(0.15);
+    work = clock.seconds(), waited = wall.seconds(), own = threadSeconds() - begun;
+  }).join();
+  if (waited < 1.3 * own) GTEST_SKIP() << "the other process did not run";
+  if (work == waited) GTEST_SKIP() << "the system does not tell of waiting threads";
+  EXPECT_NEAR(work, own, 0.2 * own);
 }
 
 TEST(WorkClock, RestCounts) {

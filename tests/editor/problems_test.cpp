@@ -214,23 +214,14 @@ TEST(Problems, OfOneCameraOnlyTheWorstIsTold) {
   EXPECT_EQ(actionOf(problem.fix), "layout.fit");
 }
 
-TEST(Problems, CamerasThatShowWhatTheirCellsNeedAreNone) {
+TEST(Problems, CamerasThatNeedNoMendingAreNone) {
   ProblemFacts facts = sound();
-  PlacementFinding finding{
+  PlacementFinding suffices{
       PlacementFlaw::noFloor, Severity::note, {0}, -1, {1, 1}, "nothing is below it", {}};
-  finding.suffices = true;
-  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {finding}; });
+  suffices.suffices = true;
+  const PlacementFinding high{PlacementFlaw::floorTooHigh, Severity::note, {0}, -1, {1, 1}, "0.7 m", {}};
+  change(facts.inspection, [&](Inspection& inspection) { inspection.placement.findings = {suffices, high}; });
   EXPECT_TRUE(findProblems(facts).empty());
-}
-
-TEST(Problems, NotesOfPlacementAreOneLine) {
-  ProblemFacts facts = sound();
-  change(facts.inspection, [&](Inspection& inspection) {
-    inspection.placement.findings.assign(
-        7, {PlacementFlaw::tooNear, Severity::note, {0}, -1, {0, 0}, "near", {}});
-  });
-  EXPECT_TRUE(says(only(facts), "7"));
-  EXPECT_EQ(only(facts).severity, Severity::note);
 }
 
 TEST(Problems, AnInspectionOfAnotherLayoutSaysNothing) {

@@ -91,9 +91,12 @@ TEST(BakeStates, TheWorstOfItsCamerasDecidesForARegion) {
   EXPECT_EQ(stateNow(), BakeState::baked);
 }
 
-TEST(BakeStates, MarksAreOfTheStoreyThatIsShown) {
+TEST(BakeStates, MarksAreOfTheLayoutThatIsShown) {
   BakeQueue queue;
-  queue.begin({{0, 5, 1}, {0, 2, 1}, {1, 3, 1}, {0, 7, 1}});
+  const auto queued = [](int storey, int camera, std::uint64_t key) {
+    return QueuedCamera{.storey = storey, .camera = camera, .pixels = 1, .key = {0, key}};
+  };
+  queue.begin({queued(0, 5, 15), queued(0, 2, 12), queued(1, 3, 23), queued(0, 7, 17)});
   CameraNews news;
   for (const auto& [storey, camera, stage] : {std::tuple(0, 5, CameraStage::tracing),
                                               {0, 2, CameraStage::writing},
@@ -103,8 +106,14 @@ TEST(BakeStates, MarksAreOfTheStoreyThatIsShown) {
     news.stage = stage;
     queue.tell(1, storey, news);
   }
-  EXPECT_EQ(bakeMarks(queue, 0), (BakeMarks{{2, 5}, {7}}));
-  EXPECT_EQ(bakeMarks(queue, 1), (BakeMarks{{3}, {}}));
+  const auto keys = [](std::uint64_t first, int count) {
+    std::vector<ContentKey> all;
+    for (int i = 0; i < count; ++i) all.push_back({0, first + std::uint64_t(i)});
+    return all;
+  };
+  EXPECT_EQ(bakeMarks(queue, keys(10, 9)), (BakeMarks{{2, 5}, {7}}));
+  EXPECT_EQ(bakeMarks(queue, keys(20, 5)), (BakeMarks{{3}, {}})) << "another storey";
+  EXPECT_EQ(bakeMarks(queue, keys(14, 2)), (BakeMarks{{1}, {}})) << "edited since";
 }
 
 TEST(ConfigurationFacts, DensitiesAreThoseOfALargeFloor) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "editor/commands/layout_edits.h"
 #include "editor/commands/setting_edits.h"
@@ -163,6 +164,37 @@ TEST_F(SessionTest, AnEstimateIsOfWhatIsMissingAndForgottenWithAnEdit) {
   EXPECT_EQ(session.estimate()->seconds.value, 0);
 }
 
+TEST_F(SessionTest, ABakeTellsWhichOfItsCapturesAnEditHasMadeUseless) {
+  Session session(options());
+  openAndSettle(session, folder_ / "room.obj");
+  makeCoarse(session);
+  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
+  waitFor(session, [&] { return !session.working(); });
+  session.startBake();
+  session.pauseBake(true);
+  waitFor(session, [&] { return !session.bakeQueue().cameras().empty(); });
+  EXPECT_EQ(session.outdatedInBake(), 0);
+  const auto settle = [&] {
+    waitFor(session, [&] { return session.built()->project == session.project(); });
+  };
+  std::set<CellId> allButOne;
+  for (const Region& region : session.built()->layout->regions) allButOne.insert(region.id);
+  allButOne.erase(allButOne.begin());
+  session.apply(removeCells(session.project(), allButOne));
+  settle();
+  EXPECT_GT(session.outdatedInBake(), 0);
+  EXPECT_LT(session.outdatedInBake(), session.bakeQueue().toBake()) << "cells that stay are still baked";
+  session.apply(setEyeHeight(session.project(), 1.3));
+  settle();
+  EXPECT_EQ(session.outdatedInBake(), session.bakeQueue().toBake());
+  session.undo();
+  session.undo();
+  settle();
+  EXPECT_EQ(session.outdatedInBake(), 0);
+  session.cancelBake();
+  waitFor(session, [&] { return !session.working(); });
+}
+
 TEST_F(SessionTest, ABakeSaysWhatItWillTakeBeforeItsFirstCamera) {
   Session session(options());
   openAndSettle(session, folder_ / "room.obj");
@@ -298,6 +330,15 @@ TEST_F(SessionTest, StoreysFoundInTheSceneAreAddedBakedAndWalked) {
   EXPECT_NEAR(session.built()->layout->eyeZ(), 2.9 + session.project().layout().eyeHeight, 0.02);
   waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
   EXPECT_EQ(session.walk()->missing, 0) << "a bake is of all storeys";
+
+  session.apply(setEyeHeight(session.project(), 1.3));
+  waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  session.startBake();
+  waitFor(session, [&] { return session.bakeQueue().count(CameraStage::tracing) > 0; });
+  EXPECT_EQ(session.bakeQueue().cameras().front().storey, 1) << "the one that is shown comes first";
+  EXPECT_FALSE(bakeMarks(session.bakeQueue(), session.built()->keys).baking.empty());
+  session.cancelBake();
+  waitFor(session, [&] { return !session.working(); });
 }
 
 TEST_F(SessionTest, ACrashedRunIsOfferedForRecoveryAndTheFileIsAsItWasSaved) {

@@ -26,7 +26,7 @@ TEST(TextFormat, WritesNumbersForPeople) {
   EXPECT_EQ(formatDuration(3900), "1 h 05 min");
   EXPECT_EQ(formatDuration(-1), "unknown");
   EXPECT_EQ(formatArea(8.64), "8.6 m²");
-  EXPECT_EQ(formatArea(1492.3), "1492 m²");
+  EXPECT_EQ(formatArea(1492.3), "1,492 m²");
   EXPECT_EQ(formatArea(3978600), "3.98 km²");
   EXPECT_EQ(formatMetres(0.005), "5 mm");
   EXPECT_EQ(formatMetres(0.25), "25 cm");
