@@ -206,7 +206,8 @@ class Session {
   /// What the bake that runs, or ran last, was to take: known a second or two after it was begun, before the
   /// first camera.
   const std::optional<BakeForecast>& bakeForecast() const { return bakeForecast_; }
-  /// Of the captures that the running bake is for, how many the project no longer uses as it was edited since.
+  /// Of the captures that the running bake is for, how many the project no longer uses as it was edited
+  /// since.
   int outdatedInBake() const { return baking_.running() ? outdatedInBake_ : 0; }
   /// Of the bake that runs: by its pace, or by the forecast while that is not known.
   std::optional<double> bakeSecondsLeft() const;
@@ -214,7 +215,8 @@ class Session {
   void estimateBake();
   /// The same of fewer probes, for a first idea.
   void glanceAtBake();
-  /// Null until asked for, when something has changed since, and after a glance once bakeCosts() knows better.
+  /// Null until asked for, when something has changed since, and after a glance once bakeCosts() knows
+  /// better.
   const BakeEstimate* estimate() const;
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
   const EffectCosts* effectCosts() const;

@@ -1,8 +1,8 @@
 #pragma once
 /// Seconds that work takes while nothing else runs on the machine: wall-clock time, less the share for which
-/// its threads waited for a processor: those of this process with the priority of the thread that asks, so that
-/// a window's threads do not count for work in the background. What other work does to caches and memory stays
-/// in it.
+/// its threads waited for a processor: those of this process with the priority of the thread that asks, so
+/// that a window's threads do not count for work in the background. What other work does to caches and memory
+/// stays in it.
 
 #include <map>
 #include <string>
