@@ -245,9 +245,9 @@ void drawProposal(PanelContext& context, const Sweep& sweep, float right) {
   ImGui::SameLine(0, ui::scaled(6));
   const std::string figures = figuresText(*best);
   const std::string text = kept ? trf("Kept: {}", figures) : trf("Not kept yet; nearest: {}", figures);
-  ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {right, ImGui::GetCursorScreenPos().y + 100}, true);
+  ImGui::PushTextWrapPos(right - ImGui::GetWindowPos().x);
   ImGui::TextColored((kept ? palette::good : palette::warning).vec(), "%s", text.c_str());
-  ImGui::PopClipRect();
+  ImGui::PopTextWrapPos();
   ui::tooltip(goalsText(*sweep.goals) + "\n" + textOf(best->setting));
 }
 
@@ -389,13 +389,15 @@ void AccuracyPanel::draw(PanelContext& context) {
     if (!sweep || std::ranges::none_of(sweep->points, &SweepPoint::measured)) {
       drawEmpty(context);
     } else {
-      const float foot = ImGui::GetFrameHeightWithSpacing();
+      const bool goals = context.state().accuracy.goals;
+      const float foot =
+          ImGui::GetFrameHeightWithSpacing() + (goals ? ImGui::GetTextLineHeightWithSpacing() : 0);
       const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
       const float card = std::min(ui::scaled(kCard), room.x * 0.45F);
       drawPlot(context, *sweep, at, {at.x + room.x - card - ui::scaled(8), at.y + room.y - foot});
       ImGui::SetCursorScreenPos({at.x, at.y + room.y - foot + ImGui::GetStyle().ItemSpacing.y});
       ImGui::AlignTextToFramePadding();
-      if (context.state().accuracy.goals)
+      if (goals)
         drawProposal(context, *sweep, at.x + room.x - card - ui::scaled(8));
       else
         drawPresets(context);

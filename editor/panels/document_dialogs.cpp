@@ -91,7 +91,12 @@ void drawFound(const Session& session, const std::string& name) {
   const double laidOut = storey.layout.outline.area();
   const double all = storey.walkable.empty() ? laidOut : storey.walkable.area();
   std::string text = trf("{}: {} to walk on were found", name, ui::formatArea(all));
-  if (!storey.walkable.empty())
+  if (!storey.walkable.empty() && session.project().storeys.size() > 1)
+    text +=
+        trf(", of which {} are laid out: as much as bakes in about {:g} minutes here, or a few cells of "
+            "each storey. Draw a larger or another outline to have more",
+            ui::formatArea(laidOut), kUsualBakeMinutes);
+  else if (!storey.walkable.empty())
     text +=
         trf(", of which {} are laid out: as much as bakes in about {:g} minutes here, {} captures at "
             "most. Draw a larger or another outline to have more",
@@ -101,9 +106,9 @@ void drawFound(const Session& session, const std::string& name) {
                     "; {} cells with hardly any of it are left out", bare, bare);
   ui::wrappedText(ui::palette::muted, trf("{}. All of this can be changed later.", text));
   std::string plan = trf("{} captures", ui::formatCount(session.built()->layout->cameras.size()));
-  if (const BakeEstimate* estimate = session.estimate())
-    plan += trf(": about {} to bake with {}, {} on disk", ui::formatDuration(estimate->seconds.value),
-                threadsText(session.bakeThreads()), ui::formatBytes(std::uint64_t(estimate->bytes.value)));
+  if (const auto forecast = session.knownForecast())
+    plan += trf(": about {} to bake with {}, {} on disk", ui::formatDuration(forecast->seconds()),
+                threadsText(session.bakeThreads()), ui::formatBytes(std::uint64_t(forecast->bytes())));
   else if (session.estimating().running())
     plan += tr(": what baking them takes is being estimated…");
   ui::wrappedText(ui::palette::muted, plan);

@@ -41,11 +41,13 @@ void WalkPanel::openMenu(PanelContext& context, const glm::dvec2& at) {
   ImGui::OpenPopup(kPopup);
 }
 
-void WalkPanel::drawMenu(PanelContext& context) const {
+void WalkPanel::drawMenu(PanelContext& context) {
   if (!ImGui::BeginPopup(kPopup)) return;
   for (const char* id : {"walk.addCell", "walk.addApv", "walk.selectCell"}) drawItem(context, id);
   ImGui::Separator();
   for (const char* id : {"walk.addCellThere", "walk.addApvThere"}) drawItem(context, id);
+  if (ImGui::MenuItem(tr("Ask the picture where I pointed"), tr("Alt+click"))) askAt_ = menuFor_;
+  context.log.item("here.ask");
   ImGui::Separator();
   for (const char* id : {"density.moreHere", "density.fewerHere"}) drawItem(context, id);
   ImGui::Separator();

@@ -175,8 +175,10 @@ void WalkPanel::look(PanelContext& context, const ImVec2& low, const ImVec2& hig
       looking_ = false;
       context.window.capturePointer(false);
       const auto at = std::exchange(menuAt_, std::nullopt);
-      if (at && event.code == ui::mouse::right && glm::distance(event.position, *at) < kClickPixels)
+      if (at && event.code == ui::mouse::right && glm::distance(event.position, *at) < kClickPixels) {
+        menuFor_ = *at;
         openMenu(context, (*at - ui::fromIm(low)) / (ui::fromIm(high) - ui::fromIm(low)));
+      }
     } else if (event.kind == Kind::move && looking_) {
       // The mouse turns the head: to the right looks right.
       const Preferences& preferences = context.session().preferences();

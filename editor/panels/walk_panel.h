@@ -43,7 +43,7 @@ class WalkPanel {
   void look(PanelContext& context, const ImVec2& low, const ImVec2& high);
   /// `at`: where in the picture, shares of its width and height.
   void openMenu(PanelContext& context, const glm::dvec2& at);
-  void drawMenu(PanelContext& context) const;
+  void drawMenu(PanelContext& context);
   PerspectiveView viewAt(PanelContext& context, double scale) const;
   bool stale(const PanelContext& context, const PerspectiveView& full) const;
   void requestFrame(PanelContext& context);
@@ -109,6 +109,7 @@ class WalkPanel {
   std::optional<glm::dvec2> menuAt_;     ///< a right click there opens the menu, if it is one
   std::optional<glm::dvec2> pressedAt_;  ///< a click there asks, if it is one
   std::optional<glm::dvec2> askAt_;      ///< window pixels; as soon as the picture rests
+  glm::dvec2 menuFor_{};                 ///< where the menu was opened, window pixels
   glm::dvec2 answerLow_{0}, answerHigh_{0};
   float answerHeight_ = 60;  ///< pixels
   WalkPose loggedPose_;

@@ -218,6 +218,8 @@ class Session {
   /// Null until asked for, when something has changed since, and after a glance once bakeCosts() knows
   /// better.
   const BakeEstimate* estimate() const;
+  /// What the last estimate, or else the costs of settings, say of all that there is to bake.
+  std::optional<BakeForecast> knownForecast() const;
   /// What each effect costs, measured with the last estimate; null where effects or settings are others now.
   const EffectCosts* effectCosts() const;
   const Job& estimating() const { return estimating_; }
@@ -333,8 +335,6 @@ class Session {
   void inspectIfStale();
   /// Of the project as it is set, with as many threads; null: not known (yet).
   const BakeCost* costAsSet() const;
-  /// What the last estimate, or else the costs of settings, say of all that there is to bake.
-  std::optional<BakeForecast> knownForecast() const;
   /// Counts the captures of the running bake that the project, just edited, no longer uses.
   void compareWithBake();
   void bakeEnded(const Result<ProjectBakeReport>& report);

@@ -65,8 +65,8 @@ std::string leftOutText(const Storey& storey, const NewOptions& options, Limited
   std::string why =
       fmt::format("since {} cameras are the limit; more with --max-cameras", countText(options.mostCameras));
   if (limit == LimitedBy::minutes)
-    why = fmt::format("as much as bakes in about {:g} minutes here; more with --bake-minutes",
-                      options.bakeMinutes);
+    why = fmt::format("as much as bakes in about {:g} minutes here{}; more with --bake-minutes",
+                      options.bakeMinutes, options.storey == "all" ? ", or a few cells of each storey" : "");
   if (limit == LimitedBy::unknown)
     why = fmt::format("since it was not known within {:g} s what baking takes; more with --bake-minutes 0",
                       kPlanningSeconds);

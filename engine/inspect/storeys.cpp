@@ -18,8 +18,10 @@ constexpr std::size_t kMostLinksPerPair = 4;
 /// Takes the fullest height out of the heights that are left, until what a height holds is too little.
 class HeightQueue {
  public:
-  HeightQueue(const Standing& standing, double tolerance) : tolerance_(tolerance) {
-    for (const StandingSpot& spot : standing.spots) heights_.push_back(spot.height);
+  HeightQueue(const Standing& standing, const std::vector<std::uint8_t>& taken, double tolerance)
+      : tolerance_(tolerance) {
+    for (std::size_t s = 0; s < taken.size(); ++s)
+      if (taken[s] == 0) heights_.push_back(standing.spots[s].height);
     std::ranges::sort(heights_);
   }
 
@@ -41,12 +43,33 @@ class HeightQueue {
   std::vector<double> heights_;
 };
 
+/// By spot: 1 on the outside of a sky box, which is the top of all, level over nearly all of the plan, and
+/// high above all other ground.
+std::vector<std::uint8_t> skyOf(const Standing& standing, double tolerance) {
+  constexpr double kNearlyAll = 0.8;
+  constexpr float kSkyHeight = 20;  // metres: a roof is nearer
+  std::vector<std::uint8_t> sky(standing.spots.size(), 0);
+  if (sky.empty()) return sky;
+  const float top = std::ranges::max(standing.spots, {}, &StandingSpot::height).height;
+  float next = -std::numeric_limits<float>::infinity();
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < sky.size(); ++s)
+    if (const float height = standing.spots[s].height; top - height <= float(tolerance))
+      sky[s] = 1, ++count;
+    else
+      next = std::max(next, height);
+  const double cells = double(standing.grid.columns) * standing.grid.rows;
+  const bool alone = count == sky.size();
+  if (alone || double(count) < kNearlyAll * cells || top - next < kSkyHeight) std::ranges::fill(sky, 0);
+  return sky;
+}
+
 std::vector<WalkPlane> collectPlanes(const Standing& standing, const StoreyOptions& options) {
   const double tolerance = options.walkable.floorTolerance;
   const double cellArea = standing.grid.step * standing.grid.step;
   std::vector<WalkPlane> planes;
-  std::vector<std::uint8_t> taken(standing.spots.size(), 0);
-  HeightQueue heights(standing, tolerance);
+  std::vector<std::uint8_t> taken = skyOf(standing, tolerance);
+  HeightQueue heights(standing, taken, tolerance);
   std::size_t largest = 0;  // spots
   const auto least = [&] {
     return std::max(options.leastArea / cellArea, options.leastShare * double(largest));

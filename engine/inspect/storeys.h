@@ -33,7 +33,8 @@ struct StoreyWay {
 struct Storeys {
   /// By height, lowest first; at one height, the larger first. A height has one for each part of the floor
   /// that is walked about without leaving it. What is within a head's height above a larger plane and cannot
-  /// be stepped on from one (a table, a podium) is left out; so are slices of a slope between level planes.
+  /// be stepped on from one (a table, a podium) is left out; so are slices of a slope between level planes,
+  /// and the outside of a sky box.
   std::vector<WalkPlane> planes;
   std::vector<StoreyLink> links;  ///< by lower, then upper
   std::vector<StoreyWay> ways;    ///< in no particular order

@@ -135,6 +135,13 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
   return storey;
 }
 
+/// What a storey may have however small its share is, or little time there is: a region or so of it.
+std::size_t fewestFor(const Storeys& planes, const NewProjectOptions& options) {
+  const std::size_t count = planes.planes.size();
+  const std::size_t usual = count > 1 ? kFewestCameras / 2 : 1;
+  return options.mostCameras > 0 ? std::min(usual, options.mostCameras / count) : usual;
+}
+
 /// Its share of all the cameras.
 FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const NewProjectOptions& options,
                           const LayoutSpec& pattern, std::size_t mostCameras) {
@@ -144,6 +151,7 @@ FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const N
   limit.fit = options.outline == "auto";  // what was drawn is laid out as drawn
   if (!limit.fit) return limit;
   limit.cameras = std::size_t(std::ceil(double(mostCameras) * plane.outline.area() / all));
+  if (mostCameras > 0) limit.cameras = std::max(limit.cameras, fewestFor(planes, options));
   limit.around = options.around;
   // Cells that are small since there is little ground suit it.
   limit.chooseCell = options.cellSize <= 0 && pattern.cellSize >= kLargestUsualCell;
@@ -154,10 +162,11 @@ FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const N
 /// Lays out the storeys of a new project, once or more.
 class Maker {
  public:
-  /// `bare`: the model, opened, without a layout.
-  Maker(OpenProject bare, Storeys planes, const NewProjectOptions& options, const ImportHost& host,
-        TaskRunner& runner, const Progress& progress, std::stop_token stop)
+  /// `bare`: the model, opened, without a layout; `model`: the file, which errors name.
+  Maker(OpenProject bare, fs::path model, Storeys planes, const NewProjectOptions& options,
+        const ImportHost& host, TaskRunner& runner, const Progress& progress, std::stop_token stop)
       : bare_(std::move(bare)),
+        model_(std::move(model)),
         project_(bare_.project),
         planes_(std::move(planes)),
         options_(options),
@@ -248,13 +257,14 @@ class Maker {
 
   /// What cannot be laid out may be of another scale than it seems.
   Error scaleMayBe(Error failure) const {
-    failure.where = sceneFileOf(bare_.file, bare_.project).string();
+    failure.where = model_.string();
     if (const auto doubt = doubtScale(*bare_.rays, options_.import))
       failure.message += fmt::format(". {} (--metres-per-unit {:g})", doubt->text, doubt->metresPerUnit);
     return failure;
   }
 
   const OpenProject bare_;
+  const fs::path model_;
   Project project_;
   std::optional<OpenProject> open_;
   Storeys planes_;
@@ -309,15 +319,19 @@ Result<NewProject> makeProject(const fs::path& sceneFile, const fs::path& projec
   if (progress) progress({0, 0, "finding the walkable area"});
   auto planes = planesFor(**scene, **rays, options, runner);
   if (!planes) return tl::unexpected(planes.error());
-  return Maker(std::move(bare), std::move(*planes), options, host, runner, progress, stop).make();
+  return Maker(std::move(bare), sceneFile, std::move(*planes), options, host, runner, progress, stop).make();
 }
 
 Result<BakeForecast> glanceAtBake(std::span<const OpenProject> storeys, double seconds, TaskRunner& runner,
                                   const Progress& progress, std::stop_token stop) {
+  constexpr double kEnough = 0.3;  // of the time: no further storey is begun
   std::vector<BakeShare> shares;
   for (const OpenProject& storey : storeys) shares.push_back(missingOf(storey, BakeRequest{}));
+  std::ranges::stable_sort(shares, std::ranges::greater(),
+                           [](const BakeShare& s) { return s.cameras.size(); });
   BakeForecastOptions options;
   options.glance = true;
+  const Stopwatch watch;
   std::stop_source late;
   const std::stop_callback stopped(stop, [&] { late.request_stop(); });
   const std::jthread clock([&late, seconds](const std::stop_token& known) {
@@ -327,7 +341,18 @@ Result<BakeForecast> glanceAtBake(std::span<const OpenProject> storeys, double s
                                            [] { return false; });
     if (!known.stop_requested()) late.request_stop();
   });
-  return forecastBake(shares, options, runner, progress, late.get_token());
+  BakeForecast forecast;
+  int cameras = 0, lights = 0;
+  for (const BakeShare& share : shares) {
+    cameras += int(share.cameras.size()), lights += int(share.light);
+    if (forecast.cameras > 0 && watch.seconds() > kEnough * seconds) continue;
+    const auto next = forecastBake({&share, 1}, options, runner, progress, late.get_token());
+    if (!next && (forecast.cameras == 0 || stop.stop_requested() || !late.stop_requested())) return next;
+    if (next) forecast += *next;
+  }
+  if (forecast.cameras < cameras) forecast = forecast.ofSoManyCameras(cameras);
+  forecast.lights = lights;
+  return forecast;
 }
 
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,

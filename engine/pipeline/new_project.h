@@ -65,7 +65,8 @@ Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::
 
 /// How long a new project waits for a forecast at a glance, seconds.
 inline constexpr double kPlanningSeconds = 10;
-/// What all storeys of a project take, at a glance; `cancelled` where that is not known in so many seconds.
+/// What all storeys of a project take, at a glance: where there are many, as the largest of them do.
+/// `cancelled` where that is not known in so many seconds.
 Result<BakeForecast> glanceAtBake(std::span<const OpenProject> storeys, double seconds, TaskRunner& runner,
                                   const Progress& progress = {}, std::stop_token stop = {});
 

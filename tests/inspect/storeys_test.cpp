@@ -72,6 +72,24 @@ TEST(Storeys, OfAHouseAreItsFloorsAndItsRoofJoinedByTheStair) {
   EXPECT_FALSE(storeys.ignoredSides);
 }
 
+TEST(Storeys, TheOutsideOfASkyBoxIsNone) {
+  BoxWorld land = twoStoreyHouse(true);
+  const auto skyAt = [&](double height) {
+    BoxWorld world = land;
+    const double low = -4, high = 12, t = 0.2;  // floor, four walls and the top, of sheets around the house
+    world.boxes.push_back({{low, low, -2 * t}, {high, high, -t}});
+    world.boxes.push_back({{low, low, height}, {high, high, height + t}});
+    world.boxes.push_back({{low, low, -t}, {low + t, high, height}});
+    world.boxes.push_back({{high - t, low, -t}, {high, high, height}});
+    world.boxes.push_back({{low, low, -t}, {high, low + t, height}});
+    world.boxes.push_back({{low, high - t, -t}, {high, high, height}});
+    return heightsOf(storeysOf(world));
+  };
+  EXPECT_THAT(skyAt(60), testing::Each(testing::Lt(10)));
+  EXPECT_THAT(skyAt(60), testing::Contains(testing::DoubleNear(3, 0.01)));
+  EXPECT_THAT(skyAt(12), testing::Contains(testing::DoubleNear(12.2, 0.01))) << "a roof is near";
+}
+
 TEST(Storeys, AreFoundWithoutAStairToo) {
   const Storeys storeys = storeysOf(twoStoreyHouse(false));
   EXPECT_EQ(storeys.planes.size(), 3u);
