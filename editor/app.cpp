@@ -246,7 +246,8 @@ void App::giveKeys() {
   if (inMenus && menusByKey_ > 0) menusByKey_ = kFramesBetween;
   menusByKey_ = dialogs_.anyOpen() ? 0 : std::max(0, menusByKey_ - 1);
   if (menusByKey_ > 0 && !inMenus) window_->pacer().request(1);
-  const bool byKeys = menusByKey_ > 0 || dialogs_.navigable() || keyFocus_.onWidgets();
+  const bool list = popup && !dialogs_.anyOpen();  // of choices, or a menu, however it was opened
+  const bool byKeys = menusByKey_ > 0 || list || dialogs_.navigable() || keyFocus_.onWidgets();
   window_->navigateByKeys(byKeys);
   const bool escape = std::ranges::any_of(events_, [](const ui::InputEvent& event) {
     return event.kind == ui::InputEvent::Kind::keyPress && event.code == ui::key::escape;
@@ -305,9 +306,14 @@ void App::draw() {
   log_.beginFrame();
   giveKeys();
   dialogs_.handleKeys(events_);
-  PanelContext context{
-      {session_, state_},   table_, *window_, log_, events_, inputBlocked(), ui::Window::seconds(),
-      keyFocus_.onWidgets()};
+  PanelContext context{{session_, state_},
+                       table_,
+                       *window_,
+                       log_,
+                       events_,
+                       inputBlocked(),
+                       ui::Window::seconds(),
+                       keyFocus_.onWidgets() || popupOpen()};
   if (window_->takeCloseRequest()) proceedAfterAsking(context.actions, {Continuation::Kind::quit, {}});
   takeDropped(context);
   runShortcuts(context);

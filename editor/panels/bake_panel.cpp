@@ -121,7 +121,9 @@ void drawPlan(const Session& session) {
   if (session.estimate() == nullptr && !allBaked) {
     const BakeCost* cost = session.bakeCosts().of(session.project().bake);
     text += cost == nullptr ? tr("; Estimate tells what baking them takes")
-                            : trf("; all of it takes about {} to bake, and {}",
+                            : trf(session.project().storeys.size() > 1
+                                      ? trLater("; all storeys take about {} to bake, and {}")
+                                      : trLater("; all of it takes about {} to bake, and {}"),
                                   ui::formatDuration(cost->forecast.seconds()),
                                   ui::formatBytes(std::uint64_t(cost->forecast.bytes())));
   }

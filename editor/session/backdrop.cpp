@@ -108,7 +108,8 @@ void drawCuts(const Scene& scene, float height, const Raster& raster, const std:
 
 }  // namespace
 
-PlanBox planBoxOf(const Bounds& scene, const Layout& layout) {
+PlanBox planBoxOf(const Bounds& scene, const Layout& layout, const Outline& walkable) {
+  constexpr double kReach = 1.5;  // times what is laid out, to each side: more would be drawn too coarsely
   if (scene.empty()) return {{-5, -5}, {5, 5}};
   const glm::dvec2 sceneMin(scene.min.x, scene.min.y);
   const glm::dvec2 sceneMax(scene.max.x, scene.max.y);
@@ -123,6 +124,11 @@ PlanBox planBoxOf(const Bounds& scene, const Layout& layout) {
   for (const auto& loop : layout.spec.outline.loops)
     for (const glm::dvec2& corner : loop) add(corner);
   if (low.x > high.x) return {sceneMin, sceneMax};
+  const glm::dvec2 size = high - low;
+  const double reach = kReach * std::max(size.x, size.y);
+  const glm::dvec2 least = low - reach, most = high + reach;
+  for (const auto& loop : walkable.loops)
+    for (const glm::dvec2& corner : loop) add(glm::clamp(corner, least, most));
   const glm::dvec2 room = 0.25 * (high - low) + 2.0;
   const PlanBox box{glm::max(sceneMin, low - room), glm::min(sceneMax, high + room)};
   const bool apart = box.min.x >= box.max.x || box.min.y >= box.max.y;  // laid out beside the scene
@@ -132,7 +138,9 @@ PlanBox planBoxOf(const Bounds& scene, const Layout& layout) {
 std::optional<Backdrop> drawBackdrop(const RayScene& scene, double cutHeight, const PlanBox& box, int pixels,
                                      TaskRunner& runner, std::stop_token stop) {
   const glm::dvec2 size = glm::max(box.max - box.min, glm::dvec2(1e-3));
-  const double pixelsPerMetre = pixels / std::max(size.x, size.y);
+  constexpr double kLongestSide = 4096;
+  const double pixelsPerMetre =
+      std::min(pixels / std::sqrt(size.x * size.y), kLongestSide / std::max(size.x, size.y));
   Backdrop backdrop;
   backdrop.min = box.min;
   backdrop.picture = ColourImage(std::max(1, int(std::lround(size.x * pixelsPerMetre))),

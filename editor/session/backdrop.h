@@ -19,14 +19,15 @@ struct Backdrop {
   glm::dvec2 max{0};
 };
 
-/// What the backdrop shows: what is laid out with room around it, but no more than the scene.
+/// What the backdrop shows: what is laid out, and ground near it where cells can be laid, with room around,
+/// but no more than the scene.
 struct PlanBox {
   glm::dvec2 min{0}, max{0};
   bool operator==(const PlanBox&) const = default;
 };
-PlanBox planBoxOf(const Bounds& scene, const Layout& layout);
+PlanBox planBoxOf(const Bounds& scene, const Layout& layout, const Outline& walkable);
 
-/// `pixels` along the longer side. Nothing if stopped.
+/// Of about `pixels` x `pixels` pixels in all, whatever its shape. Nothing if stopped.
 std::optional<Backdrop> drawBackdrop(const RayScene& scene, double cutHeight, const PlanBox& box, int pixels,
                                      TaskRunner& runner, std::stop_token stop = {});
 

@@ -377,7 +377,8 @@ void Session::savePicture(ColourImage picture) {
 void Session::drawBackdropIfStale() {
   if (shipped_) return;
   const Layout& layout = *built_->layout;
-  BackdropKey key{built_->scene, layout.eyeZ(), planBoxOf(built_->scene->bounds, layout)};
+  BackdropKey key{built_->scene, layout.eyeZ(),
+                  planBoxOf(built_->scene->bounds, layout, project().current().walkable)};
   // Small edits of the layout stay within a backdrop that is there.
   const bool inside = backdropKey_.scene == key.scene && backdropKey_.cutHeight == key.cutHeight &&
                       key.box.min.x >= backdropKey_.box.min.x && key.box.min.y >= backdropKey_.box.min.y &&

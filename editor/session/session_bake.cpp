@@ -68,6 +68,7 @@ Result<BakeForecast> predict(const StoreysToBake& plan, const std::optional<Bake
   if (known && known->cameras == cameras && known->lights == lights && known->memoryBytes == memoryBytes)
     return *known;
   BakeForecastOptions options;
+  options.enoughSeconds = BakeForecastOptions::kUsuallyEnough;
   options.memoryBytes = memoryBytes;
   return forecastBake(shares, options, runner, context.progress(), context.stop());
 }

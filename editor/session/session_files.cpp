@@ -103,6 +103,8 @@ void Session::opened(Opened opened) {
   remember(file_);
   const std::size_t cameras = opened.open.layout->cameras.size();
   std::string size = trf("{} regions, {} cameras", opened.open.layout->regions.size(), cameras);
+  if (const std::size_t storeys = opened.open.project.storeys.size(); storeys > 1)
+    size = trf("{} storeys; {}: {}", storeys, opened.open.project.current().name, size);
   if (shipped_ && shipped_->pages)
     size = trf("{} regions, of which those around the eye are shown",
                ui::formatCount(shipped_->regionCount(opened.open.project.storey)));

@@ -39,6 +39,7 @@ Result<BakeForecast> foretellBake(std::span<const BakeShare> shares, std::size_t
     return nothing;
   }
   BakeForecastOptions options;
+  options.enoughSeconds = BakeForecastOptions::kUsuallyEnough;
   options.memoryBytes = memoryBytes;
   auto forecast = forecastBake(shares, options, runner, common.progress, common.stop);
   if (forecast) tell(*forecast, common);

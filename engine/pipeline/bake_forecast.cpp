@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
+#include "engine/base/stopwatch.h"
 #include "engine/pipeline/estimate_bake.h"
 
 namespace acentric {
@@ -67,6 +69,17 @@ BakeForecast forecastOf(const BakeShare& share, const BakeEstimate& estimate) {
   }
   if (forecast.seconds() > 0) forecast.relativeError = deviation / forecast.seconds();
   return forecast;
+}
+
+/// Those of which something is to be baked: the first, then the others by their cameras, the most first.
+std::vector<const BakeShare*> inOrder(std::span<const BakeShare> shares) {
+  std::vector<const BakeShare*> order;
+  for (const BakeShare& share : shares)
+    if (share.any()) order.push_back(&share);
+  if (!order.empty())
+    std::ranges::stable_sort(std::span(order).subspan(1), std::ranges::greater(),
+                             [](const BakeShare* share) { return share->cameras.size(); });
+  return order;
 }
 
 std::string timeText(double seconds) {
@@ -136,8 +149,12 @@ Result<BakeForecast> forecastBake(std::span<const BakeShare> shares, const BakeF
   BakeForecast forecast;
   forecast.threads = runner.threads();
   double inMemory = 0;
-  for (const BakeShare& share : shares) {
-    if (!share.any()) continue;
+  const Stopwatch watch;
+  int cameras = 0, lights = 0;
+  for (const BakeShare* next : inOrder(shares)) {
+    const BakeShare& share = *next;
+    cameras += int(share.cameras.size()), lights += int(share.light);
+    if (options.brief && forecast.cameras > 0 && watch.seconds() > options.enoughSeconds) continue;
     EstimateOptions estimating;
     estimating.brief = options.brief;
     estimating.glance = options.glance;
@@ -152,6 +169,8 @@ Result<BakeForecast> forecastBake(std::span<const BakeShare> shares, const BakeF
     if (share.trial && share.trial->kept == TrialBake::Kept::inMemory)
       inMemory += kShownSampleBytes * estimate->samples.value;
   }
+  if (forecast.cameras < cameras) forecast = forecast.ofSoManyCameras(cameras);
+  forecast.lights = lights;
   forecast.memoryBytes += std::size_t(inMemory);
   return forecast;
 }

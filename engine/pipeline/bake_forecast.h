@@ -3,6 +3,7 @@
 /// is on disk already is left out.
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -47,7 +48,11 @@ BakeShare missingOf(const OpenProject& open, const BakeRequest& request, const C
 struct BakeForecastOptions {
   /// Takes some seconds, and may be wrong by half as much again; else as exact as estimateProjectBake().
   bool brief = true;
-  bool glance = false;                             ///< with brief: of fewer probes still, twice as wrong
+  bool glance = false;  ///< with brief: of fewer probes still, twice as wrong
+  /// With brief: no further share is looked at after so many seconds, and those that are left are taken to be
+  /// like those before. The first, then the largest come first.
+  double enoughSeconds = std::numeric_limits<double>::infinity();
+  static constexpr double kUsuallyEnough = 5;      ///< seconds, where the first view waits
   double effort = 1;                               ///< of all shares together, where it is not brief
   std::size_t memoryBytes = MemoryBudget::kUsual;  ///< as for the bake
 };

@@ -324,14 +324,12 @@ Result<NewProject> makeProject(const fs::path& sceneFile, const fs::path& projec
 
 Result<BakeForecast> glanceAtBake(std::span<const OpenProject> storeys, double seconds, TaskRunner& runner,
                                   const Progress& progress, std::stop_token stop) {
-  constexpr double kEnough = 0.3;  // of the time: no further storey is begun
+  constexpr double kEnough = 0.3;  // of the time: the storeys that are left are like the others
   std::vector<BakeShare> shares;
   for (const OpenProject& storey : storeys) shares.push_back(missingOf(storey, BakeRequest{}));
-  std::ranges::stable_sort(shares, std::ranges::greater(),
-                           [](const BakeShare& s) { return s.cameras.size(); });
   BakeForecastOptions options;
+  options.enoughSeconds = kEnough * seconds;
   options.glance = true;
-  const Stopwatch watch;
   std::stop_source late;
   const std::stop_callback stopped(stop, [&] { late.request_stop(); });
   const std::jthread clock([&late, seconds](const std::stop_token& known) {
@@ -341,18 +339,7 @@ Result<BakeForecast> glanceAtBake(std::span<const OpenProject> storeys, double s
                                            [] { return false; });
     if (!known.stop_requested()) late.request_stop();
   });
-  BakeForecast forecast;
-  int cameras = 0, lights = 0;
-  for (const BakeShare& share : shares) {
-    cameras += int(share.cameras.size()), lights += int(share.light);
-    if (forecast.cameras > 0 && watch.seconds() > kEnough * seconds) continue;
-    const auto next = forecastBake({&share, 1}, options, runner, progress, late.get_token());
-    if (!next && (forecast.cameras == 0 || stop.stop_requested() || !late.stop_requested())) return next;
-    if (next) forecast += *next;
-  }
-  if (forecast.cameras < cameras) forecast = forecast.ofSoManyCameras(cameras);
-  forecast.lights = lights;
-  return forecast;
+  return forecastBake(shares, options, runner, progress, late.get_token());
 }
 
 Result<Storey> makeStorey(const OpenProject& open, const WalkPlane& plane, std::string name,

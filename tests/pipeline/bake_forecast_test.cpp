@@ -77,6 +77,24 @@ TEST_F(BakeForecastTest, LeavesOutWhatIsThere) {
   EXPECT_EQ(forecastOf(open, {}).probeSeconds, 0) << "nothing is probed for nothing";
 }
 
+TEST_F(BakeForecastTest, OnceThatIsEnoughTheOthersAreLikeTheFirst) {
+  const OpenProject open = openRoom(1);
+  BakeRequest some;
+  some.cameras = std::vector{0, 1, 2};
+  const std::vector<BakeShare> shares{missingOf(open, some), missingOf(open, {}), missingOf(open, {})};
+  TaskRunner runner(1);
+  BakeForecastOptions options;
+  options.enoughSeconds = 0;
+  const auto all = forecastBake(shares, options, runner);
+  const auto first = forecastBake(std::span(shares).first(1), options, runner);
+  ASSERT_TRUE(all && first);
+  const int cameras = int(3 + 2 * open.keys.size());
+  EXPECT_EQ(all->cameras, cameras);
+  EXPECT_EQ(all->lights, 3);
+  EXPECT_NEAR(all->bytes(), first->bytes() * cameras / 3, 0.2 * all->bytes());
+  EXPECT_GT(all->seconds(), first->seconds());
+}
+
 TEST_F(BakeForecastTest, CountsPreviewsThatComeFirst) {
   const OpenProject open = openRoom(4);
   BakeRequest request;
