@@ -120,12 +120,15 @@ void drawPlan(const Session& session) {
   const bool allBaked = captures != nullptr && captures->baked == int(captures->cameras.size());
   if (session.estimate() == nullptr && !allBaked) {
     const BakeCost* cost = session.bakeCosts().of(session.project().bake);
-    text += cost == nullptr ? tr("; Estimate tells what baking them takes")
-                            : trf(session.project().storeys.size() > 1
-                                      ? trLater("; all storeys take about {} to bake, and {}")
-                                      : trLater("; all of it takes about {} to bake, and {}"),
-                                  ui::formatDuration(cost->forecast.seconds()),
-                                  ui::formatBytes(std::uint64_t(cost->forecast.bytes())));
+    if (cost == nullptr) {
+      text += tr("; Estimate tells what baking them takes");
+    } else {
+      const std::string time = ui::formatDuration(cost->forecast.seconds());
+      const std::string bytes = ui::formatBytes(std::uint64_t(cost->forecast.bytes()));
+      text += session.project().storeys.size() > 1
+                  ? trf("; all storeys take about {} to bake, and {}", time, bytes)
+                  : trf("; all of it takes about {} to bake, and {}", time, bytes);
+    }
   }
   ui::keyValue(tr("Plan"), text, kValueX);
 }

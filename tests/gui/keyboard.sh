@@ -42,7 +42,7 @@ CODE=$?
 grep -q 'OpenGL 3.3' "$WORK/old.out" || fail "nothing was said of OpenGL 3.3: $(cat "$WORK/old.out")"
 
 # No preferences yet: the sample opens, with the guide.
-"$EDITOR" --sample "$PROJECT" --log-ui "$WORK/ui.log" --exit-after 200 >"$WORK/editor.out" 2>&1 &
+"$EDITOR" --sample "$PROJECT" --log-ui "$WORK/ui.log" --exit-after 890 >"$WORK/editor.out" 2>&1 &
 EDITOR_PID=$!
 wait_for '^event READY' 60
 WINDOW=$(xdotool search --sync --name 'Acentric' | sed -n 1p)

@@ -61,7 +61,7 @@ move_a_cell() {
 
 # The first start: no preferences; the sample opens with its guide, which is left.
 start_display
-"$EDITOR" --sample "$SAMPLE" --log-ui "$WORK/ui.log" --exit-after 390 >"$WORK/editor.out" 2>&1 &
+"$EDITOR" --sample "$SAMPLE" --log-ui "$WORK/ui.log" --exit-after 890 >"$WORK/editor.out" 2>&1 &
 EDITOR_PID=$!
 wait_for '^event READY' 60
 WINDOW=$(xdotool search --sync --name 'Acentric' | sed -n 1p)

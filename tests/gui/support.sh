@@ -36,7 +36,7 @@ start_display() {
 # start_editor FILE
 start_editor() {
   rm -f "$WORK/ui.log"
-  "$EDITOR" "$1" --log-ui "$WORK/ui.log" --exit-after 390 >"$WORK/editor.out" 2>&1 &
+  "$EDITOR" "$1" --log-ui "$WORK/ui.log" --exit-after 890 >"$WORK/editor.out" 2>&1 &
   EDITOR_PID=$!
   wait_for '^event READY' 60
   WINDOW=$(xdotool search --sync --name 'Acentric' | sed -n 1p)
