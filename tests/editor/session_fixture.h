@@ -80,6 +80,13 @@ class SessionTest : public testing::Test {
     session.apply(setBakeSettings(session.project(), bake, "coarse"));
     session.apply(setCellSize(session.project(), 2.5));
   }
+  /// The room as a project that is laid out and not baked.
+  void saveCoarseRoom(Session& session) {
+    openAndSettle(session, folder_ / "room.obj");
+    makeCoarse(session);
+    ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
+    waitFor(session, [&] { return !session.working() && session.built()->project == session.project(); });
+  }
 
   fs::path folder_;
   double now_ = 0;

@@ -124,10 +124,7 @@ TEST_F(SessionTest, ABakeIsPausedGoneOnWithAndCancelled) {
 
 TEST_F(SessionTest, RemovingACellAndUndoingItLeavesEverythingBaked) {
   Session session(options());
-  openAndSettle(session, folder_ / "room.obj");
-  makeCoarse(session);
-  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
-  waitFor(session, [&] { return !session.working(); });
+  saveCoarseRoom(session);
   session.startBake();
   waitFor(session, [&] { return !session.working() && session.captures()->complete(); });
   const std::size_t before = session.built()->layout->regions.size();
@@ -143,10 +140,7 @@ TEST_F(SessionTest, RemovingACellAndUndoingItLeavesEverythingBaked) {
 
 TEST_F(SessionTest, AnEstimateIsOfWhatIsMissingAndForgottenWithAnEdit) {
   Session session(options());
-  openAndSettle(session, folder_ / "room.obj");
-  makeCoarse(session);
-  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
-  waitFor(session, [&] { return !session.working(); });
+  saveCoarseRoom(session);
   EXPECT_EQ(session.estimate(), nullptr);
   session.estimateBake();
   waitFor(session, [&] { return session.estimate() != nullptr; });
@@ -166,10 +160,7 @@ TEST_F(SessionTest, AnEstimateIsOfWhatIsMissingAndForgottenWithAnEdit) {
 
 TEST_F(SessionTest, ABakeTellsWhichOfItsCapturesAnEditHasMadeUseless) {
   Session session(options());
-  openAndSettle(session, folder_ / "room.obj");
-  makeCoarse(session);
-  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
-  waitFor(session, [&] { return !session.working(); });
+  saveCoarseRoom(session);
   session.startBake();
   session.pauseBake(true);
   waitFor(session, [&] { return !session.bakeQueue().cameras().empty(); });
@@ -197,10 +188,7 @@ TEST_F(SessionTest, ABakeTellsWhichOfItsCapturesAnEditHasMadeUseless) {
 
 TEST_F(SessionTest, ABakeSaysWhatItWillTakeBeforeItsFirstCamera) {
   Session session(options());
-  openAndSettle(session, folder_ / "room.obj");
-  makeCoarse(session);
-  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
-  waitFor(session, [&] { return !session.working(); });
+  saveCoarseRoom(session);
   EXPECT_FALSE(session.bakeForecast());
   const int cameras = int(session.built()->layout->cameras.size());
   session.startBake();
@@ -222,10 +210,7 @@ TEST_F(SessionTest, ABakeSaysWhatItWillTakeBeforeItsFirstCamera) {
 
 TEST_F(SessionTest, ABakeIsForetoldByTheEstimateThatWasAskedForBefore) {
   Session session(options());
-  openAndSettle(session, folder_ / "room.obj");
-  makeCoarse(session);
-  ASSERT_TRUE(session.saveAs(folder_ / "room.acentric.json"));
-  waitFor(session, [&] { return !session.working(); });
+  saveCoarseRoom(session);
   session.estimateBake();
   waitFor(session, [&] { return session.estimate() != nullptr; });
   const double seconds = session.estimate()->seconds.value;
