@@ -87,7 +87,7 @@ TEST(BakeForecastTold, ByBenchRepresentationsForWhatNoEarlierRunBaked) {
     return acentric({"bench", "representations", project.file(), "-o", (project.folder() / "ways").string(),
                      "--poses", "2", "--size", "96x54", "--tolerance", "0.5", "--json", "--only", only});
   };
-  const auto first = bench("rooms");
+  const auto first = bench("grid");
   ASSERT_EQ(first.exitCode, 0) << first.errors;
   const Json told = Json::parse(first.errors);
   EXPECT_EQ(told["event"], "bakeForecast");
@@ -97,8 +97,8 @@ TEST(BakeForecastTold, ByBenchRepresentationsForWhatNoEarlierRunBaked) {
   for (const Json& way : report["representations"]) cameras += way["cameras"].get<int>();
   EXPECT_EQ(told["cameras"], cameras);
   EXPECT_GT(told["bytes"].get<double>(), 0);
-  EXPECT_EQ(bench("rooms").errors, "") << "all of it is there";
-  const auto more = bench("rooms,mesh");
+  EXPECT_EQ(bench("grid").errors, "") << "all of it is there";
+  const auto more = bench("grid,mesh");
   ASSERT_EQ(more.exitCode, 0) << more.errors;
   EXPECT_EQ(Json::parse(more.errors)["cameras"], 0);
   EXPECT_EQ(Json::parse(more.errors)["lights"], 1) << "the mesh's";

@@ -49,7 +49,9 @@ TEST(SecondBake, OfAProjectIsRefusedUnlessItTakesTheFirstOver) {
   ASSERT_TRUE(waitWhileRunning(running, [&] { return !filesOf(project, ".pack").empty(); }));
   const auto owner = readLock(project.file() + ".bake");
   ASSERT_TRUE(owner.has_value()) << owner.error().describe();
+  const auto process = pid_t(owner->process);
 
+  ASSERT_EQ(::kill(process, SIGSTOP), 0);  // else it may end meanwhile
   const auto second = acentric({"bake", project.file()});
   EXPECT_EQ(second.exitCode, 1);
   EXPECT_THAT(second.errors, HasSubstr("is being baked by"));
@@ -59,6 +61,7 @@ TEST(SecondBake, OfAProjectIsRefusedUnlessItTakesTheFirstOver) {
   EXPECT_EQ(acentric({"bake", project.file(), "--shard", "1/2"}).exitCode, 1);
   EXPECT_EQ(acentric({"bake", project.file(), "--dry-run"}).exitCode, 0) << "looking is allowed";
 
+  EXPECT_EQ(::kill(process, SIGCONT), 0);
   const auto taken = acentric({"bake", project.file(), "--take-over", "--json"});
   EXPECT_EQ(taken.exitCode, 0) << taken.errors;
   EXPECT_GT(Json::parse(taken.output)["reused"].get<int>(), 0);
