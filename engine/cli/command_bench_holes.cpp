@@ -48,8 +48,8 @@ Json toJson(const HoleBenchMethod& method) {
 }
 
 std::string tableOf(const HoleBench& bench) {
-  std::string table = fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>12}\n", "", "holes",
-                                  "worst", "PSNR", "worst", "SSIM", "worst", "samples");
+  std::string table = fmt::format("  {:<15} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>12}\n", "", "holes",
+                                  "worst", "open", "PSNR", "worst", "SSIM", "worst", "samples");
   for (const HoleBenchMethod& method : bench.methods) {
     const Spreads s(method);
     table += fmt::format(
