@@ -25,6 +25,18 @@ xdotool mousemove --window "$WINDOW" "$(($1 + 60))" "$(($2 - 40))"; sleep 0.3
 xdotool keydown alt; sleep 0.2; xdotool mousedown 1; sleep 0.3; xdotool mouseup 1; sleep 0.2; xdotool keyup alt
 shown answer.close 60
 
+# By the menu of a right click, once the answer before is away.
+press Escape
+wait_until 10 is_gone answer || fail "Esc leaves the second answer"
+# shellcheck disable=SC2086
+set -- $at
+xdotool mousemove --window "$WINDOW" "$(($1 + 60))" "$(($2 - 40))"; sleep 0.3
+xdotool mousedown 3; sleep 0.3; xdotool mouseup 3
+shown here.ask 10
+sleep 0.5
+click here.ask
+shown answer.close 60
+
 # What promises most is applied: the project is another one, which the answer is not of.
 shown answer.apply.0 120
 [ "$(field undo)" = 0 ] || fail "something was edited: $(state)"
