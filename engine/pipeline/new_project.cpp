@@ -135,14 +135,15 @@ Result<Storey> storeyFor(const LayoutSpec& pattern, const WalkPlane& plane, std:
   return storey;
 }
 
-/// What a storey may have however small its share is, or little time there is: a region or so of it.
-std::size_t fewestFor(const Storeys& planes, const NewProjectOptions& options) {
-  const std::size_t count = planes.planes.size();
-  const std::size_t usual = count > 1 ? kFewestCameras / 2 : 1;
-  return options.mostCameras > 0 ? std::min(usual, options.mostCameras / count) : usual;
+/// What each storey may have however small its share is, or little time there is: a region or so of it. All
+/// of them keep to the most cameras that are asked for.
+std::size_t fewestFor(std::size_t storeys, const NewProjectOptions& options) {
+  if (storeys == 1) return 0;
+  const std::size_t usual = kFewestCameras / 2;
+  return options.mostCameras > 0 ? std::min(usual, options.mostCameras / storeys) : usual;
 }
 
-/// Its share of all the cameras.
+/// Its share of all the cameras: the fewest of each, and of the rest by its area.
 FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const NewProjectOptions& options,
                           const LayoutSpec& pattern, std::size_t mostCameras) {
   double all = 0;
@@ -150,8 +151,11 @@ FirstLayoutLimit limitFor(const WalkPlane& plane, const Storeys& planes, const N
   FirstLayoutLimit limit;
   limit.fit = options.outline == "auto";  // what was drawn is laid out as drawn
   if (!limit.fit) return limit;
-  limit.cameras = std::size_t(std::ceil(double(mostCameras) * plane.outline.area() / all));
-  if (mostCameras > 0) limit.cameras = std::max(limit.cameras, fewestFor(planes, options));
+  if (mostCameras > 0) {
+    const std::size_t fewest = fewestFor(planes.planes.size(), options);
+    const double rest = std::max(0.0, double(mostCameras) - double(fewest * planes.planes.size()));
+    limit.cameras = fewest + std::size_t(std::ceil(rest * plane.outline.area() / all));
+  }
   limit.around = options.around;
   // Cells that are small since there is little ground suit it.
   limit.chooseCell = options.cellSize <= 0 && pattern.cellSize >= kLargestUsualCell;
